@@ -1,6 +1,6 @@
 // node build-js.mjs WORK OUT: writes the .wasm files of WORK as modules to OUT/wasm, and prints a table of sizes.
-import { readFileSync, readdirSync, writeFileSync } from "node:fs";
-import { brotliCompressSync } from "node:zlib";
+import {readdirSync, readFileSync, writeFileSync} from "node:fs";
+import {brotliCompressSync} from "node:zlib";
 
 const [work, out] = process.argv.slice(2);
 const rows = [];
@@ -14,6 +14,7 @@ for (const file of readdirSync(out).filter((name) => name.endsWith(".js")).sort(
   const script = readFileSync(`${out}/${file}`);
   rows.push([file, "", script.length, brotliCompressSync(script).length]);
 }
-const show = (cells) => console.log(cells.map((cell, i) => i === 0 ? String(cell).padEnd(20) : String(cell).padStart(9)).join(""));
+const show = (cells) =>
+  console.log(cells.map((cell, i) => i === 0 ? String(cell).padEnd(20) : String(cell).padStart(9)).join(""));
 show(["bytes", "wasm", "script", "brotli"]);
 rows.forEach(show);

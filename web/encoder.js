@@ -6,7 +6,7 @@ const waiting = new Map();
 function end(error) {
   worker?.terminate();
   worker = undefined;
-  for (const { reject } of waiting.values()) reject(error);
+  for (const {reject} of waiting.values()) reject(error);
   waiting.clear();
 }
 
@@ -18,16 +18,16 @@ export function cancel() {
 /** Runs encodeMesh in the worker. Resolves to {bytes, ms}; `source` is copied. */
 export function encode(source, options) {
   if (!worker) {
-    worker = new Worker(new URL("encode-worker.js", import.meta.url), { type: "module" });
-    worker.onmessage = ({ data: { id, error, ...result } }) => {
-      const { resolve, reject } = waiting.get(id);
+    worker = new Worker(new URL("encode-worker.js", import.meta.url), {type: "module"});
+    worker.onmessage = ({data: {id, error, ...result}}) => {
+      const {resolve, reject} = waiting.get(id);
       waiting.delete(id);
       error ? reject(new Error(error)) : resolve(result);
     };
-    worker.onerror = ({ message }) => end(new Error(`the encoder failed: ${message ?? "it could not be loaded"}`));
+    worker.onerror = ({message}) => end(new Error(`the encoder failed: ${message ?? "it could not be loaded"}`));
   }
   return new Promise((resolve, reject) => {
-    waiting.set(++last, { resolve, reject });
-    worker.postMessage({ id: last, source, options });
+    waiting.set(++last, {resolve, reject});
+    worker.postMessage({id: last, source, options});
   });
 }

@@ -1,8 +1,11 @@
 // Finds the ring of a mesh whose vertices are in ring order, as in every packed stream: edges from vertex i to i + 1.
 
-/** Numbers the distinct positions in order of appearance: copies at seams get the same number. `firsts`: first vertex of each number. */
+/**
+ * Numbers the distinct positions in order of appearance: copies at seams get the same number. `firsts`: first vertex
+ * of each number.
+ */
 function weld(position) {
-  const { count } = position, bits = new Uint32Array(3 * count), values = new Float32Array(bits.buffer);
+  const {count} = position, bits = new Uint32Array(3 * count), values = new Float32Array(bits.buffer);
   for (let v = 0; v < count; v++) {
     values[3 * v] = position.getX(v) + 0;  // turns -0 into 0
     values[3 * v + 1] = position.getY(v) + 0;
@@ -25,12 +28,12 @@ function weld(position) {
       numbers[v] = numbers[table[at] - 1];
     }
   }
-  return { numbers, firsts };
+  return {numbers, firsts};
 }
 
 /** The ring edges of an indexed geometry, as pairs of vertices. Cost: O(V + T). */
-export function ringOf({ attributes: { position }, index }) {
-  const { numbers, firsts } = weld(position), { array } = index;
+export function ringOf({attributes: {position}, index}) {
+  const {numbers, firsts} = weld(position), {array} = index;
   const forEachEdge = (use) => {
     for (let i = 0; i < array.length; i++) {
       const a = numbers[array[i]], b = numbers[array[i % 3 === 2 ? i - 2 : i + 1]];
@@ -38,8 +41,12 @@ export function ringOf({ attributes: { position }, index }) {
     }
   };
   const isEdge = new Uint8Array(firsts.length);  // [i]: there is an edge from i to i + 1
-  forEachEdge((a, b) => { if (b === a + 1) isEdge[a] = 1; });
-  const lines = [], last = new Uint32Array(firsts.length);  // last[first]: the last vertex of the run of edges that begins at `first`
+  forEachEdge((a, b) => {
+    if (b === a + 1) isEdge[a] = 1;
+  });
+  const lines = [],
+        last =
+          new Uint32Array(firsts.length);  // last[first]: the last vertex of the run of edges that begins at `first`
   for (let i = 0, first = 0; i < firsts.length; i++) {
     if (isEdge[i]) {
       lines.push(firsts[i], firsts[i + 1]);

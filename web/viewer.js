@@ -1,13 +1,14 @@
 // Draws a model, and its ring over it.
 import * as THREE from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
-import { ringOf } from "./ring.js";
+import {OrbitControls} from "three/addons/controls/OrbitControls.js";
+import {RoomEnvironment} from "three/addons/environments/RoomEnvironment.js";
+
+import {ringOf} from "./ring.js";
 
 const STEP = Math.PI / 24, ZOOM = 1.15;  // rotation and zoom per key press
 
 function dispose(object) {
-  object.traverse(({ geometry, material, skeleton }) => {
+  object.traverse(({geometry, material, skeleton}) => {
     geometry?.dispose();
     skeleton?.dispose();
     for (const one of [material ?? []].flat()) {
@@ -24,7 +25,7 @@ function dispose(object) {
 /** Makes the lines of a mesh's ring, animated like the mesh. */
 function ringLines(mesh, material) {
   const geometry = new THREE.BufferGeometry();
-  geometry.attributes = { ...mesh.geometry.attributes };
+  geometry.attributes = {...mesh.geometry.attributes};
   geometry.morphAttributes = mesh.geometry.morphAttributes;
   geometry.morphTargetsRelative = mesh.geometry.morphTargetsRelative;
   geometry.setIndex(new THREE.BufferAttribute(ringOf(mesh.geometry), 1));
@@ -33,8 +34,8 @@ function ringLines(mesh, material) {
   lines.frustumCulled = false;
   lines.morphTargetInfluences = mesh.morphTargetInfluences;
   if (mesh.isSkinnedMesh) {
-    const { skeleton, bindMatrix, bindMatrixInverse, bindMode } = mesh;
-    Object.assign(lines, { isSkinnedMesh: true, skeleton, bindMatrix, bindMatrixInverse, bindMode });
+    const {skeleton, bindMatrix, bindMatrixInverse, bindMode} = mesh;
+    Object.assign(lines, {isSkinnedMesh: true, skeleton, bindMatrix, bindMatrixInverse, bindMode});
   }
   return lines;
 }
@@ -43,10 +44,11 @@ function ringLines(mesh, material) {
 function meanLength(rings) {
   const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
   let sum = 0, count = 0;
-  for (const { geometry: { index, attributes: { position } }, matrixWorld } of rings) {
+  for (const {geometry: {index, attributes: {position}}, matrixWorld} of rings) {
     const scale = matrixWorld.getMaxScaleOnAxis();
     for (let i = 0; i < index.count; i += 2) {
-      sum += scale * a.fromBufferAttribute(position, index.array[i]).distanceTo(b.fromBufferAttribute(position, index.array[i + 1]));
+      sum += scale *
+        a.fromBufferAttribute(position, index.array[i]).distanceTo(b.fromBufferAttribute(position, index.array[i + 1]));
     }
     count += index.count / 2;
   }
@@ -77,13 +79,13 @@ export class Viewer {
   #mixer;
   #clock = new THREE.Timer();
   #isWaiting = false;
-  #ringMaterial = new THREE.LineBasicMaterial({ transparent: true });
+  #ringMaterial = new THREE.LineBasicMaterial({transparent: true});
   #ringLength = 0;  // mean length of a line
   #hasRing = true;
   #isFramed = false;  // the user has not moved the camera since frame()
 
   constructor(canvas) {
-    this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true});
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     const generator = new THREE.PMREMGenerator(this.#renderer), room = new RoomEnvironment();
     this.#scene.environment = generator.fromScene(room, 0.04).texture;
@@ -98,7 +100,9 @@ export class Viewer {
     this.#controls.enablePan = false;
     this.#controls.autoRotateSpeed = 1.5;
     this.#controls.addEventListener("change", () => this.draw());
-    this.#controls.addEventListener("start", () => { this.#isFramed = false; });
+    this.#controls.addEventListener("start", () => {
+      this.#isFramed = false;
+    });
     new ResizeObserver(() => this.#resize()).observe(canvas);
     canvas.addEventListener("keydown", (event) => this.#press(event));
     this.setColors();
@@ -109,7 +113,9 @@ export class Viewer {
     const style = getComputedStyle(document.documentElement);
     this.#ringMaterial.color.set(style.getPropertyValue("--ring").trim());
     const mesh = style.getPropertyValue("--mesh").trim();
-    this.#model?.traverse(({ material }) => { if (material?.userData.isPlain) material.color.set(mesh); });
+    this.#model?.traverse(({material}) => {
+      if (material?.userData.isPlain) material.color.set(mesh);
+    });
     this.draw();
   }
 
@@ -125,7 +131,8 @@ export class Viewer {
     this.#scene.add(object);
     object.traverse((mesh) => {
       if (!mesh.isMesh) return;
-      for (const material of [mesh.material].flat()) Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+      for (const material of [mesh.material].flat())
+        Object.assign(material, {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});
     });
     this.#mixer = animations.length > 0 ? new THREE.AnimationMixer(object) : undefined;
     this.#mixer?.clipAction(animations[0]).play();
@@ -141,7 +148,9 @@ export class Viewer {
     this.#hasRing = hasRing;
     if (hasRing && this.#rings.length === 0) {
       const meshes = [];
-      this.#model?.traverse((mesh) => { if (mesh.isMesh && mesh.geometry.index && !mesh.isInstancedMesh) meshes.push(mesh); });
+      this.#model?.traverse((mesh) => {
+        if (mesh.isMesh && mesh.geometry.index && !mesh.isInstancedMesh) meshes.push(mesh);
+      });
       for (const mesh of meshes) {
         const lines = ringLines(mesh, this.#ringMaterial);
         this.#rings.push(lines);
@@ -150,13 +159,15 @@ export class Viewer {
       this.#model?.updateMatrixWorld(true);
       this.#ringLength = meanLength(this.#rings);
     }
-    this.#rings.forEach((lines) => { lines.visible = hasRing; });
+    this.#rings.forEach((lines) => {
+      lines.visible = hasRing;
+    });
     this.draw();
   }
 
   /** The number of ring lines shown. */
   get lines() {
-    return this.#rings.reduce((sum, { visible, geometry }) => sum + (visible ? geometry.index.count / 2 : 0), 0);
+    return this.#rings.reduce((sum, {visible, geometry}) => sum + (visible ? geometry.index.count / 2 : 0), 0);
   }
 
   setTurning(isTurning) {
@@ -168,9 +179,11 @@ export class Viewer {
   frame() {
     if (!this.#model) return;
     this.#model.updateMatrixWorld(true);
-    const sphere = new THREE.Box3().setFromObject(this.#model, true).getBoundingSphere(new THREE.Sphere()), { center } = sphere;
+    const sphere = new THREE.Box3().setFromObject(this.#model, true).getBoundingSphere(new THREE.Sphere()),
+          {center} = sphere;
     const radius = Math.min(sphere.radius, farthest(this.#model, center));
-    const size = radius > 0 ? radius : 1, half = Math.tan(THREE.MathUtils.degToRad(this.#camera.fov / 2)) * Math.min(1, this.#camera.aspect);
+    const size = radius > 0 ? radius : 1,
+          half = Math.tan(THREE.MathUtils.degToRad(this.#camera.fov / 2)) * Math.min(1, this.#camera.aspect);
     const distance = size / Math.sin(Math.atan(half)) * 1.05;
     this.#camera.near = distance / 100;
     this.#camera.far = distance * 100;
@@ -200,15 +213,17 @@ export class Viewer {
     });
   }
 
-  /** Makes lines more transparent as they get shorter on the screen: opaque lines of about a pixel would hide the mesh. */
+  /**
+   * Makes lines more transparent as they get shorter on the screen: opaque lines of about a pixel would hide the mesh.
+   */
   #fadeRing() {
-    const { position, fov } = this.#camera, height = this.#renderer.domElement.clientHeight;
+    const {position, fov} = this.#camera, height = this.#renderer.domElement.clientHeight;
     const seen = 2 * position.distanceTo(this.#controls.target) * Math.tan(THREE.MathUtils.degToRad(fov / 2));
     this.#ringMaterial.opacity = THREE.MathUtils.clamp(this.#ringLength * height / seen / 6, 0.1, 1);
   }
 
   #resize() {
-    const { clientWidth, clientHeight } = this.#renderer.domElement;
+    const {clientWidth, clientHeight} = this.#renderer.domElement;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.#renderer.setSize(clientWidth, clientHeight, false);
     this.#camera.aspect = clientWidth / clientHeight;
@@ -218,7 +233,14 @@ export class Viewer {
   }
 
   #press(event) {
-    const steps = { ArrowLeft: [-STEP, 0, 1], ArrowRight: [STEP, 0, 1], ArrowUp: [0, -STEP, 1], ArrowDown: [0, STEP, 1], "+": [0, 0, 1 / ZOOM], "-": [0, 0, ZOOM] };
+    const steps = {
+      ArrowLeft: [-STEP, 0, 1],
+      ArrowRight: [STEP, 0, 1],
+      ArrowUp: [0, -STEP, 1],
+      ArrowDown: [0, STEP, 1],
+      "+": [0, 0, 1 / ZOOM],
+      "-": [0, 0, ZOOM]
+    };
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Home") this.frame();
     const step = steps[event.key === "=" ? "+" : event.key];
@@ -226,7 +248,7 @@ export class Viewer {
     event.preventDefault();
     if (!step) return;
     this.#isFramed = false;
-    const { target } = this.#controls, offset = this.#camera.position.clone().sub(target);
+    const {target} = this.#controls, offset = this.#camera.position.clone().sub(target);
     const at = new THREE.Spherical().setFromVector3(offset);
     at.theta += step[0];
     at.phi += step[1];

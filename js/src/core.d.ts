@@ -1,2 +1,3 @@
-export { LacedRingError, decodeMesh, decodeTriangle, ready, validate } from "./lacedring.js";
-export type { Attribute, Mesh, Options, Values } from "./lacedring.js";
+export {decodeMesh, decodeTriangle, LacedRingError, ready, validate} from "./lacedring.js";
+
+export type{Attribute, Mesh, Options, Values} from "./lacedring.js";

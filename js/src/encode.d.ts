@@ -1,6 +1,6 @@
-import type { Values } from "./lacedring.js";
+import type {Values} from "./lacedring.js";
 
-export { LacedRingError } from "./lacedring.js";
+export {LacedRingError} from "./lacedring.js";
 
 /** Resolves when the wasm is compiled; rejects with an Error if there is no WebAssembly. Await it before encodeMesh. */
 export const ready: Promise<void>;
@@ -19,9 +19,9 @@ export interface SourceAttribute {
 
 export interface Source {
   /** Three vertices per triangle; without indices, every three successive vertices are a triangle. */
-  indices?: Uint8Array | Uint16Array | Uint32Array;
+  indices?: Uint8Array|Uint16Array|Uint32Array;
   /** Three per vertex, finite. */
-  positions?: Float32Array | Float64Array;
+  positions?: Float32Array|Float64Array;
   normals?: Float32Array;
   texcoords?: Float32Array;
   /** Three or four per vertex. */

@@ -1,28 +1,29 @@
 // A wasm instance and a stack allocator for its memory: allocates addresses in ascending order, frees them all at once.
-import { LacedRingError, errorOf } from "./errors.js";
+import {errorOf, LacedRingError} from "./errors.js";
 
 const PAGE = 65536;
 /** An engine with more bytes of memory than this is not kept for the next file. */
 const KEPT = 64 * 1024 * 1024;
 
 /** A module with one function that uses an i8x16 constant: valid only if the machine has SIMD. */
-const SIMD_PROBE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10,
-  1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
+const SIMD_PROBE = new Uint8Array(
+  [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
 
 /**
- * Compiles the variant of a module that the machine supports. Each loader imports a script whose default export is the wasm
- * in base64; only one of them is called.
+ * Compiles the variant of a module that the machine supports. Each loader imports a script whose default export is the
+ * wasm in base64; only one of them is called.
  */
 export async function compile(loadScalar, loadSimd) {
-  if (typeof WebAssembly !== "object") throw new LacedRingError("UNSUPPORTED", "lacedring: there is no WebAssembly here");
-  const { default: text } = await (WebAssembly.validate(SIMD_PROBE) ? loadSimd() : loadScalar());
+  if (typeof WebAssembly !== "object")
+    throw new LacedRingError("UNSUPPORTED", "lacedring: there is no WebAssembly here");
+  const {default: text} = await (WebAssembly.validate(SIMD_PROBE) ? loadSimd() : loadScalar());
   return WebAssembly.compile(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
 }
 
 export class Engine {
   #exports;
-  #heap;  // first byte after the module's own data
-  #top;  // first free byte
+  #heap;             // first byte after the module's own data
+  #top;              // first free byte
   #most = Infinity;  // addresses must stay below this
 
   constructor(module) {
@@ -63,7 +64,8 @@ export class Engine {
   take(bytes) {
     const address = this.#top, end = address + Math.ceil(bytes / 16) * 16;
     if (!(end <= this.#most))
-      throw new LacedRingError("LIMIT", `lr file: it would take more than ${Math.floor((this.#most - this.#heap) / 2 ** 20)} MiB of memory`);
+      throw new LacedRingError(
+        "LIMIT", `lr file: it would take more than ${Math.floor((this.#most - this.#heap) / 2 ** 20)} MiB of memory`);
     const missing = end - this.buffer.byteLength;
     if (missing > 0) {
       try {
@@ -102,7 +104,10 @@ export class Engine {
     }
   }
 
-  /** Calls a wasm function that returns a status; returns the words of its result. `what`: part of the file, for errors. */
+  /**
+   * Calls a wasm function that returns a status; returns the words of its result. `what`: part of the file, for
+   * errors.
+   */
   call(what, name, ...values) {
     const status = this.run(name, ...values);
     const result = this.words(this.run("lr_result"), 10);

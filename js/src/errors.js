@@ -41,7 +41,10 @@ export class LacedRingError extends Error {
   }
 }
 
-/** Makes an error of a C function's status. `what`: part of the file; `where`: the place or number that the function reported. */
+/**
+ * Makes an error of a C function's status. `what`: part of the file; `where`: the place or number that the function
+ * reported.
+ */
 export function errorOf(status, what, where) {
   const [code, text] = STATUSES[status] ?? ["UNKNOWN", `status ${status}`];
   return new LacedRingError(code, `lr file: ${what}: ${text} (at ${where})`);

@@ -1,13 +1,12 @@
 // Decodes the bytes of an .lr file to typed arrays.
-import { ATTRIBUTE, CORNER_ORDER, LEAN, LR, LR_COMPACT, PACKED, SEAMS, TYPES, VERTEX_ORDER, VERTICES, malformed,
-  readContainer } from "./container.js";
-import { LacedRingError } from "./errors.js";
+import {ATTRIBUTE, CORNER_ORDER, LEAN, LR, LR_COMPACT, malformed, PACKED, readContainer, SEAMS, TYPES, VERTEX_ORDER, VERTICES} from "./container.js";
+import {LacedRingError} from "./errors.js";
 
 const LATTICE = 1, DECIMALS = 4;  // mappings of positions whose integers predict other attributes
 /**
- * Most triangles and vertices per byte of the storage form. A triangle takes at least one bit with a probability model, which
- * costs 1/710 bit or more; a vertex takes at least one symbol of 16, which costs 1/1513 bit or more. Counts in headers are
- * checked against these limits before memory is allocated.
+ * Most triangles and vertices per byte of the storage form. A triangle takes at least one bit with a probability model,
+ * which costs 1/710 bit or more; a vertex takes at least one symbol of 16, which costs 1/1513 bit or more. Counts in
+ * headers are checked against these limits before memory is allocated.
  */
 const TRIANGLES_A_BYTE = 8 * 710, VERTICES_A_BYTE = 8 * 1514;
 
@@ -24,7 +23,10 @@ function closeRanks(slots) {
   }
 }
 
-/** Decodes one file with an engine. Addresses refer to the engine's memory. Counts are checked before memory is allocated. */
+/**
+ * Decodes one file with an engine. Addresses refer to the engine's memory. Counts are checked before memory is
+ * allocated.
+ */
 class Reader {
   constructor(engine, bytes, limits = {}) {
     this.engine = engine;
@@ -36,27 +38,32 @@ class Reader {
 
   /** Decodes the mesh; makes no arrays if `isCheck`. */
   read(isCheck) {
-    const { sections, vertices, copies } = this.file;
-    const tables = sections.find(({ kind }) => kind === LR || kind === LR_COMPACT);
-    if (tables) throw new LacedRingError("UNSUPPORTED", `lr file: ${tables.what}: not read here; lacedring decode reads them`);
-    for (const { kind, perCopy, size, what } of sections) {
+    const {sections, vertices, copies} = this.file;
+    const tables = sections.find(({kind}) => kind === LR || kind === LR_COMPACT);
+    if (tables)
+      throw new LacedRingError("UNSUPPORTED", `lr file: ${tables.what}: not read here; lacedring decode reads them`);
+    for (const {kind, perCopy, size, what} of sections) {
       if ((kind === ATTRIBUTE || kind === VERTICES) && (perCopy ? copies : vertices) > VERTICES_A_BYTE * size)
         throw malformed(`${what}: too short for its vertices`, "SIZE");
     }
-    const of = (...kinds) => sections.filter(({ kind }) => kinds.includes(kind));
-    const connectivity = of(LEAN, PACKED);
-    if (connectivity.length !== 1) throw malformed(connectivity.length === 0 ? "no connectivity" : "connectivity occurs twice");
-    const [seams, vertexOrder, cornerOrder] = [SEAMS, VERTEX_ORDER, CORNER_ORDER].map((kind) => this.#only(of(kind)));
+    const sectionsOf = (...kinds) => sections.filter(({kind}) => kinds.includes(kind));
+    const connectivity = sectionsOf(LEAN, PACKED);
+    if (connectivity.length !== 1)
+      throw malformed(connectivity.length === 0 ? "no connectivity" : "connectivity occurs twice");
+    const [seams, vertexOrder, cornerOrder] =
+      [SEAMS, VERTEX_ORDER, CORNER_ORDER].map((kind) => this.#only(sectionsOf(kind)));
     if ((seams === undefined) !== (copies === 0)) throw malformed("seams without copies, or copies without seams");
     this.#readConnectivity(connectivity[0], seams);
     if (this.triangleCount > this.file.triangles) throw malformed("more triangles than the input had", "TRIANGLES");
     const vertexCount = seams ? copies : vertices;
-    const mesh = { vertexCount, triangleCount: this.triangleCount, indices: this.#indices(this.corners, isCheck), attributes: [] };
+    const mesh =
+      {vertexCount, triangleCount: this.triangleCount, indices: this.#indices(this.corners, isCheck), attributes: []};
     if (seams) {
       const vertexOf = this.#array(Uint32Array, this.vertexOf, copies, isCheck);
-      mesh.surface = { vertexCount: vertices, indices: this.#indices(this.triangles, isCheck), vertexOf };
+      mesh.surface = {vertexCount: vertices, indices: this.#indices(this.triangles, isCheck), vertexOf};
     }
-    for (const section of of(ATTRIBUTE, VERTICES)) mesh.attributes.push(this.#readAttribute(section, mesh.attributes.length === 0, isCheck));
+    for (const section of sectionsOf(ATTRIBUTE, VERTICES))
+      mesh.attributes.push(this.#readAttribute(section, mesh.attributes.length === 0, isCheck));
     if (mesh.attributes.length === 0) throw malformed("no POSITION");
     if (vertexOrder) mesh.vertexOrder = this.#readOrder(vertexOrder, vertexCount, vertexCount, 1);
     if (cornerOrder) mesh.cornerOrder = this.#readOrder(cornerOrder, this.triangleCount, this.file.triangles, 3);
@@ -65,7 +72,7 @@ class Reader {
 
   /** The only section in the list that is not empty, if any. */
   #only(sections) {
-    const some = sections.filter(({ size }) => size > 0);
+    const some = sections.filter(({size}) => size > 0);
     if (some.length > 1) throw malformed(`${some[1].what}: occurs twice`);
     return some[0];
   }
@@ -79,8 +86,9 @@ class Reader {
   }
 
   #call(section, name, ...values) {
-    if (!this.engine.has(name)) 
-      throw new LacedRingError("UNSUPPORTED", `lr file: ${section.what}: this module does not read it; "lacedring" does`);
+    if (!this.engine.has(name))
+      throw new LacedRingError(
+        "UNSUPPORTED", `lr file: ${section.what}: this module does not read it; "lacedring" does`);
     return this.engine.call(section.what, name, ...values);
   }
 
@@ -92,7 +100,7 @@ class Reader {
 
   /** Sets triangles, triangleCount and corners (the same triangles; with seams, as indices of copies). */
   #readConnectivity(section, seams) {
-    const { engine } = this;
+    const {engine} = this;
     const [slots, slotCount] = section.isStored ? this.#readStoredPacked(section) : this.#readResident(section, seams);
     this.corners = slots;
     if (seams) {
@@ -106,12 +114,14 @@ class Reader {
   }
 
   #checkVertices(section, vertices) {
-    if (vertices !== this.file.vertices) throw malformed(`${section.what}: another number of vertices than the file has`, "VERTICES");
+    if (vertices !== this.file.vertices)
+      throw malformed(`${section.what}: another number of vertices than the file has`, "VERTICES");
   }
 
   #readResident(section, seams) {
-    const { engine } = this;
-    const [vertices, triangles, slots] = this.#call(section, "lr_connectivity_open", ...this.#words(section), section.crc);
+    const {engine} = this;
+    const [vertices, triangles, slots] =
+      this.#call(section, "lr_connectivity_open", ...this.#words(section), section.crc);
     this.#checkVertices(section, vertices);
     const out = engine.take(12 * Math.max(triangles, slots));
     this.#call(section, "lr_connectivity_decode", out);
@@ -122,9 +132,10 @@ class Reader {
   }
 
   #readStoredPacked(section) {
-    const { engine, file } = this;
+    const {engine, file} = this;
     const most = Math.min(file.triangles, TRIANGLES_A_BYTE * section.size);
-    const [vertices, triangles, scratch] = this.#call(section, "lr_stored_packed_open", ...this.#words(section), file.vertices, most);
+    const [vertices, triangles, scratch] =
+      this.#call(section, "lr_stored_packed_open", ...this.#words(section), file.vertices, most);
     this.#checkVertices(section, vertices);
     const out = engine.take(12 * triangles), mark = engine.mark;
     this.#call(section, "lr_stored_packed_decode", engine.take(scratch), out);
@@ -134,30 +145,33 @@ class Reader {
   }
 
   #readSeams(section, slots, slotCount) {
-    const { engine, file } = this;
+    const {engine, file} = this;
     const words = this.#words(section);
-    const [copies, scratch] = section.isStored
-      ? this.#call(section, "lr_stored_seams_open", ...words, file.vertices, slotCount, file.copies)
-      : this.#call(section, "lr_seams_open", ...words, section.crc, file.vertices, slotCount);
+    const [copies, scratch] = section.isStored ?
+      this.#call(section, "lr_stored_seams_open", ...words, file.vertices, slotCount, file.copies) :
+      this.#call(section, "lr_seams_open", ...words, section.crc, file.vertices, slotCount);
     this.corners = engine.take(12 * slotCount);
     this.vertexOf = engine.take(4 * copies);
     const mark = engine.mark;
-    const [made] = this.#call(section, section.isStored ? "lr_stored_seams_decode" : "lr_seams_decode", slots, engine.take(scratch),
+    const [made] = this.#call(
+      section, section.isStored ? "lr_stored_seams_decode" : "lr_seams_decode", slots, engine.take(scratch),
       this.corners, this.vertexOf);
     engine.release(mark);
-    if ((section.isStored ? made : copies) !== file.copies) throw malformed(`${section.what}: another number of copies than the file has`, "COPY");
+    if ((section.isStored ? made : copies) !== file.copies)
+      throw malformed(`${section.what}: another number of copies than the file has`, "COPY");
   }
 
   #readAttribute(section, isFirst, isCheck) {
-    const { engine, file } = this;
+    const {engine, file} = this;
     const isPosition = section.name === "POSITION";
     if (isPosition !== isFirst && isFirst) throw malformed("the first attribute is not POSITION");
     const count = section.perCopy ? file.copies : file.vertices, mark = engine.mark;
-    const made = section.kind === ATTRIBUTE ? this.#readPlain(section, count)
-      : section.isStored ? this.#readStoredVertices(section, count, isFirst) : this.#readVertices(section, count, isFirst);
-    const [typeName, Type] = TYPES[made.type], { components, normalized } = made;
+    const made = section.kind === ATTRIBUTE ? this.#readPlain(section, count) :
+      section.isStored                      ? this.#readStoredVertices(section, count, isFirst) :
+                                              this.#readVertices(section, count, isFirst);
+    const [typeName, Type] = TYPES[made.type], {components, normalized} = made;
     if (isFirst) this.#checkPosition(section, made, count);
-    let { values } = made, all = count;
+    let {values} = made, all = count;
     if (this.vertexOf !== undefined && !section.perCopy) {
       const size = components * Type.BYTES_PER_ELEMENT;
       all = file.copies;
@@ -165,7 +179,7 @@ class Reader {
       engine.run("lr_gather", made.values, size, this.vertexOf, all, values);
     }
     const array = this.#array(Type, values, all * components, isCheck);
-    const attribute = { name: section.name, components, type: typeName, normalized, values: array, vUp: section.vUp };
+    const attribute = {name: section.name, components, type: typeName, normalized, values: array, vUp: section.vUp};
     engine.release(this.held ?? mark);
     this.held = undefined;
     return attribute;
@@ -173,9 +187,10 @@ class Reader {
 
   /** An attribute whose values are stored uncompressed. */
   #readPlain(section, count) {
-    const { type, components, normalized } = section;
-    if (section.size !== count * components * TYPES[type][1].BYTES_PER_ELEMENT) throw malformed(`${section.what}: of the wrong size`, "SIZE");
-    return { type, components, normalized: normalized && type < 6, values: this.address + section.offset };
+    const {type, components, normalized} = section;
+    if (section.size !== count * components * TYPES[type][1].BYTES_PER_ELEMENT)
+      throw malformed(`${section.what}: of the wrong size`, "SIZE");
+    return {type, components, normalized: normalized && type < 6, values: this.address + section.offset};
   }
 
   /** Keeps the integers of positions allocated until the file is read, as they may predict other attributes. */
@@ -185,35 +200,38 @@ class Reader {
   }
 
   #readVertices(section, count, isFirst) {
-    const { engine } = this;
-    const [components, type, normalized, integers, mapping] = this.#call(section, "lr_vertices_open", ...this.#words(section),
-      this.address + section.begin, section.crc, count);
+    const {engine} = this;
+    const [components, type, normalized, integers, mapping] = this.#call(
+      section, "lr_vertices_open", ...this.#words(section), this.address + section.begin, section.crc, count);
     const predicts = isFirst && integers === 3 && (mapping === LATTICE || mapping === DECIMALS) &&
-      this.file.sections.some(({ kind, isStored }) => kind === VERTICES && isStored);
+      this.file.sections.some(({kind, isStored}) => kind === VERTICES && isStored);
     const places = predicts ? engine.take(12 * count) : 0;
     if (predicts) this.#hold(places);
     const values = engine.take(count * components * TYPES[type][1].BYTES_PER_ELEMENT);
     this.#call(section, "lr_vertices_decode", values);
     if (predicts) engine.run("lr_vertices_integers", places);
-    return { type, components, normalized: normalized !== 0, values, mapping };
+    return {type, components, normalized: normalized !== 0, values, mapping};
   }
 
   #readStoredVertices(section, count, isFirst) {
-    const { engine, file } = this;
-    const [components, type, normalized, integers, mapping, scratch] = this.#call(section, "lr_stored_vertices_open",
-      ...this.#words(section), count, this.triangleCount, this.positions ?? 0, file.vertices, section.perCopy ? this.vertexOf : 0);
+    const {engine, file} = this;
+    const [components, type, normalized, integers, mapping, scratch] = this.#call(
+      section, "lr_stored_vertices_open", ...this.#words(section), count, this.triangleCount, this.positions ?? 0,
+      file.vertices, section.perCopy ? this.vertexOf : 0);
     const places = engine.take(4 * count * integers);
     if (isFirst && integers === 3 && (mapping === LATTICE || mapping === DECIMALS)) this.#hold(places);
     const values = engine.take(count * components * TYPES[type][1].BYTES_PER_ELEMENT);
-    this.#call(section, "lr_stored_vertices_decode", section.perCopy ? this.corners : this.triangles, this.triangleCount,
+    this.#call(
+      section, "lr_stored_vertices_decode", section.perCopy ? this.corners : this.triangles, this.triangleCount,
       engine.take(scratch), places, values);
-    return { type, components, normalized: normalized !== 0, values, mapping };
+    return {type, components, normalized: normalized !== 0, values, mapping};
   }
 
   /** Checks that POSITION is three floats or doubles per vertex (not per copy), finite when rounded to floats. */
-  #checkPosition(section, { type, components, values, mapping }, count) {
+  #checkPosition(section, {type, components, values, mapping}, count) {
     const Type = TYPES[type][1];
-    if (components !== 3 || type < 6 || section.perCopy) throw malformed("POSITION is not three floats or doubles of each vertex");
+    if (components !== 3 || type < 6 || section.perCopy)
+      throw malformed("POSITION is not three floats or doubles of each vertex");
     if (mapping === LATTICE) return;  // its values are always finite
     const coordinates = new Type(this.engine.buffer, values, 3 * count);
     for (let i = 0; i < coordinates.length; ++i) {
@@ -221,7 +239,10 @@ class Reader {
     }
   }
 
-  /** Reads and checks an order: a permutation of vertices (each = 1), or corners (each = 3) of distinct triangles < range. */
+  /**
+   * Reads and checks an order: a permutation of vertices (each = 1), or corners (each = 3) of distinct triangles <
+   * range.
+   */
   #readOrder(section, count, range, each) {
     const [address, words] = this.#words(section);
     if (words !== count || count > range) throw malformed(`${section.what}: of another size`, "SIZE");

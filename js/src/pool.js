@@ -1,11 +1,11 @@
 // Decodes in a worker, in browsers and in node.
-import { LacedRingError } from "./errors.js";
+import {LacedRingError} from "./errors.js";
 
 let worker, last = 0;
 const waiting = new Map();
 
-function settle({ id, mesh, error }) {
-  const { resolve, reject } = waiting.get(id);
+function settle({id, mesh, error}) {
+  const {resolve, reject} = waiting.get(id);
   waiting.delete(id);
   if (worker && waiting.size === 0) worker.unref?.();  // lets node exit
   error ? reject(new LacedRingError(error.code, error.message)) : resolve(mesh);
@@ -13,18 +13,19 @@ function settle({ id, mesh, error }) {
 
 function fail(message) {
   worker = undefined;
-  for (const id of [...waiting.keys()]) settle({ id, error: { code: "WORKER", message: `lacedring: the worker ended: ${message}` } });
+  for (const id of [...waiting.keys()])
+    settle({id, error: {code: "WORKER", message: `lacedring: the worker ended: ${message}`}});
 }
 
 async function start() {
   const url = new URL("./worker.js", import.meta.url);
   if (typeof Worker === "function") {
-    const made = new Worker(url, { type: "module" });
-    made.onmessage = ({ data }) => settle(data);
+    const made = new Worker(url, {type: "module"});
+    made.onmessage = ({data}) => settle(data);
     made.onerror = (event) => fail(event.message);
     return made;
   }
-  const { Worker: NodeWorker } = await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:worker_threads");
+  const {Worker: NodeWorker} = await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:worker_threads");
   const made = new NodeWorker(url);
   made.on("message", settle);
   made.on("error", (error) => fail(error.message));
@@ -35,11 +36,14 @@ let starting;
 
 /** Runs decodeMesh in a worker. The mesh's arrays are transferred, not copied; `bytes` are copied and stay usable. */
 export async function decodeMeshAsync(bytes, options = {}) {
-  worker ?? await (starting ??= start().then((made) => { worker = made; starting = undefined; }));
+  worker ?? await (starting ??= start().then((made) => {
+    worker = made;
+    starting = undefined;
+  }));
   return new Promise((resolve, reject) => {
     const id = ++last, copy = bytes.slice();
-    waiting.set(id, { resolve, reject });
+    waiting.set(id, {resolve, reject});
     worker.ref?.();
-    worker.postMessage({ id, bytes: copy, options }, [copy.buffer]);
+    worker.postMessage({id, bytes: copy, options}, [copy.buffer]);
   });
 }

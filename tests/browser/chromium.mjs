@@ -1,14 +1,19 @@
 // Headless Chromium, told what to do by the DevTools protocol over a pipe.
-import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
+import {spawn} from "node:child_process";
+import {mkdtempSync, rmSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
 
 // WebGL2 without a GPU (SwiftShader), the same pixels on every machine. The sandbox needs rights that containers lack.
-const FLAGS = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-first-run",
-  "--disable-extensions", "--remote-debugging-pipe"];
-// WebGPU in the same way. Pages come from 127.0.0.1: elsewhere there is none. Without Vulkan the GPU process ends when a canvas is shown.
-export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
+const FLAGS = [
+  "--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-first-run",
+  "--disable-extensions", "--remote-debugging-pipe"
+];
+// WebGPU in the same way. Pages come from 127.0.0.1: elsewhere there is none. Without Vulkan the GPU process ends when
+// a canvas is shown.
+export const WEBGPU = [
+  "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"
+];
 
 export class Page {
   #process;
@@ -23,8 +28,9 @@ export class Page {
   problems = [];
 
   constructor(flags = []) {
-    this.#process = spawn(process.env.CHROMIUM ?? "chromium", [...FLAGS, ...flags, `--user-data-dir=${this.#profile}`, "about:blank"],
-      { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+    this.#process = spawn(
+      process.env.CHROMIUM ?? "chromium", [...FLAGS, ...flags, `--user-data-dir=${this.#profile}`, "about:blank"],
+      {stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"]});
     let text = "";
     this.#process.stdio[4].setEncoding("utf8").on("data", (more) => {
       const messages = (text + more).split("\0");
@@ -32,23 +38,23 @@ export class Page {
       messages.forEach((message) => this.#receive(JSON.parse(message)));
     });
     this.#ended = new Promise((resolve) => {
-      this.#process.on("error", ({ message }) => resolve(message));
+      this.#process.on("error", ({message}) => resolve(message));
       this.#process.on("exit", (code, signal) => resolve(`ended with ${code ?? signal}`));
     });
     this.#ended.then((why) => {
       this.#why = `Chromium: ${why}`;
-      for (const { reject } of this.#waiting.values()) reject(new Error(this.#why));
+      for (const {reject} of this.#waiting.values()) reject(new Error(this.#why));
       this.#waiting.clear();
     });
     this.#process.stdio[3].on("error", () => {});
   }
 
-  #receive({ id, method, params, result, error }) {
+  #receive({id, method, params, result, error}) {
     if (id === undefined) {
       this.#listeners.get(method)?.(params);
       return;
     }
-    const { resolve, reject } = this.#waiting.get(id);
+    const {resolve, reject} = this.#waiting.get(id);
     this.#waiting.delete(id);
     error ? reject(new Error(error.message)) : resolve(result);
   }
@@ -57,34 +63,37 @@ export class Page {
     return new Promise((resolve, reject) => {
       if (this.#why) return reject(new Error(this.#why));
       const id = ++this.#last;
-      this.#waiting.set(id, { resolve, reject });
-      this.#process.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.#session }) + "\0");
+      this.#waiting.set(id, {resolve, reject});
+      this.#process.stdio[3].write(JSON.stringify({id, method, params, sessionId: this.#session}) + "\0");
     });
   }
 
   async open(url) {
-    const { targetId } = await this.#send("Target.createTarget", { url: "about:blank" });
-    this.#session = (await this.#send("Target.attachToTarget", { targetId, flatten: true })).sessionId;
+    const {targetId} = await this.#send("Target.createTarget", {url: "about:blank"});
+    this.#session = (await this.#send("Target.attachToTarget", {targetId, flatten: true})).sessionId;
     await this.#send("Page.enable");
     const tell = (text) => this.problems.push(text);
-    this.#listeners.set("Runtime.consoleAPICalled", ({ type, args }) => {
-      if (type === "error" || type === "warning") tell(args.map(({ value, description }) => value ?? description).join(" "));
+    this.#listeners.set("Runtime.consoleAPICalled", ({type, args}) => {
+      if (type === "error" || type === "warning")
+        tell(args.map(({value, description}) => value ?? description).join(" "));
     });
-    this.#listeners.set("Runtime.exceptionThrown", ({ exceptionDetails }) => tell(exceptionDetails.exception?.description ?? exceptionDetails.text));
-    this.#listeners.set("Log.entryAdded", ({ entry }) => {
+    this.#listeners.set(
+      "Runtime.exceptionThrown",
+      ({exceptionDetails}) => tell(exceptionDetails.exception?.description ?? exceptionDetails.text));
+    this.#listeners.set("Log.entryAdded", ({entry}) => {
       if (entry.level === "error" || entry.level === "warning") tell(`${entry.text} ${entry.url ?? ""}`);
     });
     await this.#send("Runtime.enable");
     await this.#send("Log.enable");
     const loaded = new Promise((resolve) => this.#listeners.set("Page.loadEventFired", resolve));
-    await this.#send("Page.navigate", { url });
+    await this.#send("Page.navigate", {url});
     await loaded;
   }
 
   /** The value of an expression in the page; promises are waited for. */
   async evaluate(expression) {
-    const { result, exceptionDetails } = await this.#send("Runtime.evaluate",
-      { expression, awaitPromise: true, returnByValue: true });
+    const {result, exceptionDetails} =
+      await this.#send("Runtime.evaluate", {expression, awaitPromise: true, returnByValue: true});
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
   }
@@ -92,31 +101,31 @@ export class Page {
   /** Bytes in use after a garbage collection: of JavaScript's objects, and of arrays and wasm memories. */
   async memory() {
     await this.#send("HeapProfiler.collectGarbage");
-    const { usedSize, backingStorageSize } = await this.#send("Runtime.getHeapUsage");
-    return { objects: usedSize, arrays: backingStorageSize };
+    const {usedSize, backingStorageSize} = await this.#send("Runtime.getHeapUsage");
+    return {objects: usedSize, arrays: backingStorageSize};
   }
 
   /** Chooses files for an input, as a person does. `input` is an expression. */
   async choose(input, files) {
-    const { result } = await this.#send("Runtime.evaluate", { expression: input });
-    await this.#send("DOM.setFileInputFiles", { objectId: result.objectId, files });
+    const {result} = await this.#send("Runtime.evaluate", {expression: input});
+    await this.#send("DOM.setFileInputFiles", {objectId: result.objectId, files});
   }
 
   /** Makes the page so large, in pixels, and light or dark. */
   async show(width, height, scheme = "light") {
-    await this.#send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
-    await this.#send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
+    await this.#send("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: false});
+    await this.#send("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: scheme}]});
   }
 
   /** The page as a PNG file's bytes. */
   async screenshot() {
-    const { data } = await this.#send("Page.captureScreenshot", { format: "png" });
+    const {data} = await this.#send("Page.captureScreenshot", {format: "png"});
     return Buffer.from(data, "base64");
   }
 
   async close() {
     await this.#send("Browser.close").catch(() => this.#process.kill());
     await this.#ended;
-    rmSync(this.#profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+    rmSync(this.#profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 200});
   }
 }

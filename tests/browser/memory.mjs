@@ -1,16 +1,22 @@
-// node memory.mjs PACKAGES PLUGIN FILE: loads and draws a packed glTF file 100 times with the plug-in in headless Chromium, frees it
-// each time, and looks at the memory that is in use after 20 times and after 100. Exit code 1 if it grows. PACKAGES and PLUGIN are
-// those of pictures.mjs.
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
-import { Page } from "./chromium.mjs";
-import { serve, share } from "../../scripts/web.mjs";
+// node memory.mjs PACKAGES PLUGIN FILE: loads and draws a packed glTF file 100 times with the plug-in in headless
+// Chromium, frees it each time, and looks at the memory that is in use after 20 times and after 100. Exit code 1 if it
+// grows. PACKAGES and PLUGIN are those of pictures.mjs.
+import {dirname, join} from "node:path";
+import {fileURLToPath} from "node:url";
+
+import {serve, share} from "../../scripts/web.mjs";
+
+import {Page} from "./chromium.mjs";
 
 const [packages, plugin, file] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
 const MOST = 1 << 20;  // bytes that it may grow by: three.js itself leaves 1 to 3 KB of objects a time
 
-const folders = { "": here, three: join(packages, "node_modules/three"), lacedring: plugin };
+const folders = {
+  "": here,
+  three: join(packages, "node_modules/three"),
+  lacedring: plugin
+};
 const server = await serve(folders);
 const page = new Page();
 let failed = false;
@@ -19,7 +25,7 @@ try {
   const url = JSON.stringify(share(folders, file));
   const after = async (times) => {
     const gpu = await page.evaluate(`repeat(${url}, ${times})`);
-    return { ...gpu, ...await page.memory() };
+    return {...gpu, ...await page.memory()};
   };
   const first = await after(20), last = await after(80);
   for (const name of Object.keys(first)) {

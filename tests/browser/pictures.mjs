@@ -1,21 +1,31 @@
-// node pictures.mjs PACKAGES PLUGIN [--keep FOLDER] [--source SOURCE [--exact FILE | --close FILE | --packed FILE]...]...
-// Draws glTF files with three.js in headless Chromium and compares the pictures with those of their source; --packed draws with the
-// plug-in and allows no pixel of difference from the file before. Exit code 1 if one differs too much, or if the page's console has an
-// error. PACKAGES is what scripts/node-packages prints, PLUGIN the package that scripts/build-js writes; --keep writes the pictures as
-// PNG files.
-import { mkdirSync, writeFileSync } from "node:fs";
-import { basename, dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
-import { Page } from "./chromium.mjs";
-import { serve, share } from "../../scripts/web.mjs";
+// node pictures.mjs PACKAGES PLUGIN [--keep FOLDER] [--source SOURCE [--exact FILE | --close FILE | --packed
+// FILE]...]... Draws glTF files with three.js in headless Chromium and compares the pictures with those of their
+// source; --packed draws with the plug-in and allows no pixel of difference from the file before. Exit code 1 if one
+// differs too much, or if the page's console has an error. PACKAGES is what scripts/node-packages prints, PLUGIN the
+// package that scripts/build-js writes; --keep writes the pictures as PNG files.
+import {mkdirSync, writeFileSync} from "node:fs";
+import {basename, dirname, join} from "node:path";
+import {fileURLToPath} from "node:url";
 
-// The share of the covered pixels that may differ by more than 16 of 255. Even of equal triangles some may, where two are as near
-// to the eye or a texel ends: their order and first corners decide about the last bit.
-const LIMITS = { "--exact": 0.0002, "--close": 0.01, "--packed": 0 };
+import {serve, share} from "../../scripts/web.mjs";
+
+import {Page} from "./chromium.mjs";
+
+// The share of the covered pixels that may differ by more than 16 of 255. Even of equal triangles some may, where two
+// are as near to the eye or a texel ends: their order and first corners decide about the last bit.
+const LIMITS = {
+  "--exact": 0.0002,
+  "--close": 0.01,
+  "--packed": 0
+};
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [packages, plugin, ...args] = process.argv.slice(2);
-const folders = { "": here, three: join(packages, "node_modules/three"), lacedring: plugin };
+const folders = {
+  "": here,
+  three: join(packages, "node_modules/three"),
+  lacedring: plugin
+};
 const server = await serve(folders);
 const page = new Page();
 let failed = 0, keep, source;
@@ -24,7 +34,7 @@ try {
   for (let i = 0; i < args.length; i += 2) {
     const [option, file] = [args[i], args[i + 1]], isPacked = option === "--packed";
     if (option === "--keep") {
-      mkdirSync(keep = file, { recursive: true });
+      mkdirSync(keep = file, {recursive: true});
       continue;
     }
     if (option === "--source") {
@@ -33,12 +43,15 @@ try {
     }
     const url = JSON.stringify(share(folders, file, dirname(source)));
     const views = await page.evaluate(`compare(${url}, ${isPacked})`);
-    views.forEach(({ png, different, over, largest, covered }, view) => {
+    views.forEach(({png, different, over, largest, covered}, view) => {
       const limit = LIMITS[option];
       const wrong = isPacked ? different > 0 : limit ? over > limit * covered : covered < 100;
       failed += wrong;
-      console.log(`${wrong ? "FAILED " : ""}${basename(file)}, view ${view}: ${covered} pixels covered` +
-        (option !== "--source" ? `, ${different} differ, ${over} of them by more than 16, largest difference ${largest}` : ""));
+      console.log(
+        `${wrong ? "FAILED " : ""}${basename(file)}, view ${view}: ${covered} pixels covered` +
+        (option !== "--source" ?
+           `, ${different} differ, ${over} of them by more than 16, largest difference ${largest}` :
+           ""));
       if (keep) writeFileSync(join(keep, `${basename(file)}-${view}.png`), Buffer.from(png.split(",")[1], "base64"));
     });
   }

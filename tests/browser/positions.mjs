@@ -1,17 +1,18 @@
-// node positions.mjs LACEDRING GLTFPACK MESH...: a table of the bytes of meshes of positions alone, lossless, as .lr files in storage
-// form and as gltfpack -noq -c writes them (document and buffers), as they are and after brotli.
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { basename, join } from "node:path";
-import { brotliCompressSync, constants } from "node:zlib";
+// node positions.mjs LACEDRING GLTFPACK MESH...: a table of the bytes of meshes of positions alone, lossless, as .lr
+// files in storage form and as gltfpack -noq -c writes them (document and buffers), as they are and after brotli.
+import {execFileSync} from "node:child_process";
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {basename, join} from "node:path";
+import {brotliCompressSync, constants} from "node:zlib";
 
 const [lacedring, gltfpack, ...meshes] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "lacedring-positions-"));
-const [whole, alone, ours, theirs] = ["whole.glb", "alone.glb", "ours.lr", "theirs.glb"].map((name) => join(folder, name));
+const [whole, alone, ours, theirs] =
+  ["whole.glb", "alone.glb", "ours.lr", "theirs.glb"].map((name) => join(folder, name));
 
 /** Runs a program; what it says is part of the error if it fails. */
-const run = (...command) => execFileSync(command[0], command.slice(1), { stdio: "pipe" });
+const run = (...command) => execFileSync(command[0], command.slice(1), {stdio: "pipe"});
 
 /** Writes the GLB without the attributes beside POSITION. */
 function keepPositions(from, to) {
@@ -19,7 +20,7 @@ function keepPositions(from, to) {
   const end = 20 + data.readUInt32LE(12);
   const json = JSON.parse(data.subarray(20, end));
   for (const mesh of json.meshes) {
-    for (const primitive of mesh.primitives) primitive.attributes = { POSITION: primitive.attributes.POSITION };
+    for (const primitive of mesh.primitives) primitive.attributes = {POSITION: primitive.attributes.POSITION};
   }
   const text = Buffer.from(JSON.stringify(json));
   const padded = Buffer.concat([text, Buffer.alloc(-text.length & 3, " ")]);
@@ -31,7 +32,7 @@ function keepPositions(from, to) {
 
 function sizes(file) {
   const data = readFileSync(file);
-  return [data.length, brotliCompressSync(data, { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } }).length];
+  return [data.length, brotliCompressSync(data, {params: {[constants.BROTLI_PARAM_QUALITY]: 11}}).length];
 }
 
 const median = (values) => {
@@ -55,6 +56,6 @@ try {
     console.log(`| ${[basename(mesh), ...row, ...ratios.map((list) => list.at(-1).toFixed(2))].join(" | ")} |`);
   }
 } finally {
-  rmSync(folder, { recursive: true });
+  rmSync(folder, {recursive: true});
 }
 console.log(`| median | | | | | ${ratios.map((list) => median(list).toFixed(2)).join(" | ")} |`);

@@ -1,12 +1,12 @@
 // node validate.mjs PACKAGES [FILE...] [--source SOURCE FILE...]...
-// Runs the Khronos glTF validator. A FILE may have no error, and one that was made from a SOURCE no kind of error or warning
-// that the source does not have. Exit code 1 otherwise. PACKAGES is what scripts/node-packages prints.
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { basename, dirname, join, resolve } from "node:path";
+// Runs the Khronos glTF validator. A FILE may have no error, and one that was made from a SOURCE no kind of error or
+// warning that the source does not have. Exit code 1 otherwise. PACKAGES is what scripts/node-packages prints.
+import {readFileSync} from "node:fs";
+import {createRequire} from "node:module";
+import {basename, dirname, join, resolve} from "node:path";
 
 const [packages, ...args] = process.argv.slice(2);
-const { validateBytes } = createRequire(resolve(packages, "package.json"))("gltf-validator");
+const {validateBytes} = createRequire(resolve(packages, "package.json"))("gltf-validator");
 
 // A GLB keeps the data URIs of the .gltf that it was made from; only there they are worth a warning.
 const ALLOWED = new Set(["DATA_URI_GLB"]);
@@ -27,8 +27,8 @@ async function codes(file, folders) {
     maxIssues: 0,
     externalResourceFunction: async (uri) => read(uri),
   });
-  const found = { errors: new Map(), warnings: new Map() };
-  for (const { severity, code, pointer, message } of report.issues.messages) {
+  const found = {errors: new Map(), warnings: new Map()};
+  for (const {severity, code, pointer, message} of report.issues.messages) {
     if (severity < 2) (severity ? found.warnings : found.errors).set(code, `${pointer ?? ""} ${message}`);
   }
   return found;
@@ -46,9 +46,11 @@ for (let i = 0; i < args.length; i++) {
   if (isSource) expected = found;
   for (const [severity, all] of Object.entries(found)) {
     for (const [code, text] of all) {
-      const isNew = !isSource && (expected ? !expected[severity].has(code) && !ALLOWED.has(code) : severity === "errors");
+      const isNew =
+        !isSource && (expected ? !expected[severity].has(code) && !ALLOWED.has(code) : severity === "errors");
       unexpected += isNew;
-      console.log(`${basename(args[i])}: ${severity}: ${code}${isNew ? ` (${expected ? "not in the source" : "not allowed"})` : ""} ${text}`);
+      console.log(`${basename(args[i])}: ${severity}: ${code}${
+        isNew ? ` (${expected ? "not in the source" : "not allowed"})` : ""} ${text}`);
     }
   }
 }

@@ -22,19 +22,20 @@ function decodeDraco(draco, bytes) {
   const indices = new Uint32Array(draco.HEAPF32.buffer, indexAt, size / 4).slice();
   draco._free(indexAt);
   const bytesOf = 12 * mesh.num_points(), at = draco._malloc(bytesOf);
-  decoder.GetAttributeDataArrayForAllPoints(mesh, decoder.GetAttribute(mesh, decoder.GetAttributeId(mesh, draco.POSITION)), draco.DT_FLOAT32, bytesOf, at);
+  decoder.GetAttributeDataArrayForAllPoints(
+    mesh, decoder.GetAttribute(mesh, decoder.GetAttributeId(mesh, draco.POSITION)), draco.DT_FLOAT32, bytesOf, at);
   const positions = new Float32Array(draco.HEAPF32.buffer, at, bytesOf / 4).slice();
   draco._free(at);
   draco.destroy(mesh);
   draco.destroy(decoder);
-  return { indices, positions };
+  return {indices, positions};
 }
 
 /**
  * Milliseconds of each library for one mesh: the least and the median of `rounds` interleaved rounds.
  * mesh: bytes { resident, stored, indices, vertices, draco }, and vertexCount, triangleCount of the meshopt buffers.
  */
-export function bench({ lacedring, meshopt, draco }, mesh, rounds) {
+export function bench({lacedring, meshopt, draco}, mesh, rounds) {
   const works = {
     resident: () => lacedring.decodeMesh(mesh.resident),
     stored: () => lacedring.decodeMesh(mesh.stored),
@@ -53,6 +54,6 @@ export function bench({ lacedring, meshopt, draco }, mesh, rounds) {
   }
   return Object.fromEntries(Object.entries(times).map(([name, all]) => {
     all.sort((a, b) => a - b);
-    return [name, { least: all[0], median: all[all.length >> 1] }];
+    return [name, {least: all[0], median: all[all.length >> 1]}];
   }));
 }

@@ -1,6 +1,6 @@
 // Damages .lr files, mostly so that their checksums match again: what is inside is looked at then.
 
-const TABLE = Uint32Array.from({ length: 256 }, (_, i) => {
+const TABLE = Uint32Array.from({length: 256}, (_, i) => {
   for (let k = 0; k < 8; ++k) i = (i >>> 1) ^ (0xedb88320 & -(i & 1));
   return i;
 });
@@ -23,16 +23,28 @@ export function random(seed) {
   };
 }
 
-/** Which word of a resident section of a kind is the checksum, and where the words begin that it is of; lean and others: all but that word. */
-const CHECKSUMS = { 1: [7, 0], 7: [3, 0], 8: [3, 0], 9: [1, 2] };
+/**
+ * Which word of a resident section of a kind is the checksum, and where the words begin that it is of; lean and
+ * others: all but that word.
+ */
+const CHECKSUMS = {
+  1: [7, 0],
+  7: [3, 0],
+  8: [3, 0],
+  9: [1, 2]
+};
 
 function mendSection(bytes, view, at) {
-  const kind = view.getUint16(at, true), coding = view.getUint16(at + 2, true), offset = view.getUint32(at + 8, true), size = view.getUint32(at + 16, true);
+  const kind = view.getUint16(at, true), coding = view.getUint16(at + 2, true), offset = view.getUint32(at + 8, true),
+        size = view.getUint32(at + 16, true);
   if (offset + size > bytes.length) return;
   const [word, from] = coding === 0 ? CHECKSUMS[kind] ?? [] : [];
   const begin = offset + (kind === 8 ? Math.ceil(view.getUint32(at + 28, true) / 8) * 8 : 0), end = offset + size;
   if (word !== undefined && begin + 4 * word + 4 <= end)
-    view.setUint32(begin + 4 * word, crc32(bytes.subarray(begin + 4 * word + 4, end), from ? 0 : crc32(bytes.subarray(begin, begin + 4 * word))), true);
+    view.setUint32(
+      begin + 4 * word,
+      crc32(bytes.subarray(begin + 4 * word + 4, end), from ? 0 : crc32(bytes.subarray(begin, begin + 4 * word))),
+      true);
   view.setUint32(at + 4, crc32(bytes.subarray(offset, end)), true);
 }
 
@@ -43,14 +55,18 @@ export function mend(bytes) {
   view.setUint32(28, crc32(bytes.subarray(0, 28)), true);
 }
 
-/** A damaged copy: bits flipped, words replaced or moved, mostly in a section, at times in header, table, or cut off. */
+/**
+ * A damaged copy: bits flipped, words replaced or moved, mostly in a section, at times in header, table, or cut off.
+ */
 export function damage(bytes, next) {
-  const cut = next(20) === 0 ? 32 + next(bytes.length - 32) : bytes.length, copy = bytes.slice(0, cut), view = new DataView(copy.buffer);
+  const cut = next(20) === 0 ? 32 + next(bytes.length - 32) : bytes.length, copy = bytes.slice(0, cut),
+        view = new DataView(copy.buffer);
   const count = view.getUint32(8, true), table = 32 + 32 * count;
   for (let changes = 1 + next(4); changes > 0; --changes) {
     let from = 0, size = cut;
     const place = next(10);
-    if (place === 0) size = Math.min(table, cut);
+    if (place === 0)
+      size = Math.min(table, cut);
     else if (table <= cut) {  // a section; often its first words
       const entry = 32 + 32 * next(count);
       from = view.getUint32(entry + 8, true);
@@ -59,7 +75,10 @@ export function damage(bytes, next) {
     }
     const at = Math.min(from + next(size || 1), cut - 4) & ~3;
     const kind = next(5), word = view.getUint32(at, true);
-    const value = kind === 0 ? next(2 ** 32) : kind === 1 ? [0, 0xffffffff, 0x7fffffff, 0x80000000, 1][next(5)] : kind === 2 ? word + next(5) - 2 : word ^ 1 << next(32);
+    const value = kind === 0 ? next(2 ** 32) :
+      kind === 1             ? [0, 0xffffffff, 0x7fffffff, 0x80000000, 1][next(5)] :
+      kind === 2             ? word + next(5) - 2 :
+                               word ^ 1 << next(32);
     view.setUint32(at, value >>> 0, true);
   }
   if (next(10) > 0) mend(copy);

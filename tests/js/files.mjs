@@ -1,17 +1,17 @@
 // The .lr files that the tests decode: what lacedring makes of generated meshes and of the project's assets.
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { basename, dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
+import {execFileSync} from "node:child_process";
+import {mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {basename, dirname, join} from "node:path";
+import {fileURLToPath} from "node:url";
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 export const program = process.env.LACEDRING ?? join(root, "build/release/bin/lacedring");
 export const work = mkdtempSync(join(tmpdir(), "lacedring-js-"));
-process.on("exit", () => rmSync(work, { recursive: true, force: true }));
+process.on("exit", () => rmSync(work, {recursive: true, force: true}));
 
 export function lacedring(...args) {
-  execFileSync(program, args, { stdio: ["ignore", "ignore", "pipe"] });
+  execFileSync(program, args, {stdio: ["ignore", "ignore", "pipe"]});
 }
 
 /** A grid with normals, texture coordinates and colors, all of which turn at a seam in its middle. */
@@ -21,14 +21,23 @@ function writeGrid(file) {
     for (let y = 0; y <= n; ++y) {
       for (let x = 0; x <= n; ++x) {
         const z = Math.sin(x / 3) * Math.cos(y / 4), tilt = Math.cos(x / 3) / 3, size = Math.hypot(tilt, 1);
-        lines.push([x + half * n, y, z.toFixed(4), -tilt / size, 0, 1 / size, (x / n).toFixed(3), (half ? 1 - y / n : y / n).toFixed(3), half ? 255 : 9 * x, 10 * y, 99]);
-        if (x < n && y < n) faces.push([0, 1, n + 2], [0, n + 2, n + 1]), faces.push(...faces.splice(-2).map((t) => [3, ...t.map((i) => i + lines.length - 1)]));
+        lines.push([
+          x + half * n, y, z.toFixed(4), -tilt / size, 0, 1 / size, (x / n).toFixed(3),
+          (half ? 1 - y / n : y / n).toFixed(3), half ? 255 : 9 * x, 10 * y, 99
+        ]);
+        if (x < n && y < n)
+          faces.push([0, 1, n + 2], [0, n + 2, n + 1]),
+            faces.push(...faces.splice(-2).map((t) => [3, ...t.map((i) => i + lines.length - 1)]));
       }
     }
   }
-  writeFileSync(file, ["ply", "format ascii 1.0", `element vertex ${lines.length}`, ...["x", "y", "z", "nx", "ny", "nz", "s", "t"].map((p) => `property float ${p}`),
-    ...["red", "green", "blue"].map((p) => `property uchar ${p}`), `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header",
-    ...lines.map((line) => line.join(" ")), ...faces.map((face) => face.join(" "))].join("\n") + "\n");
+  writeFileSync(file, [
+    "ply", "format ascii 1.0", `element vertex ${lines.length}`,
+    ...["x", "y", "z", "nx", "ny", "nz", "s", "t"].map((p) => `property float ${p}`),
+    ...["red", "green", "blue"].map((p) => `property uchar ${p}`), `element face ${faces.length}`,
+    "property list uchar int vertex_indices", "end_header", ...lines.map((line) => line.join(" ")),
+    ...faces.map((face) => face.join(" "))
+  ].join("\n") + "\n");
 }
 
 const BITS = ["--positions", "14", "--normals", "10", "--texcoords", "12"];
@@ -45,7 +54,10 @@ export const VARIANTS = {
 /** Meshes of every kind, or, by hand, those of the folder LACEDRING_MESHES. */
 export function sources() {
   const folder = process.env.LACEDRING_MESHES;
-  if (folder) return readdirSync(folder).filter((name) => /\.(glb|gltf|obj|off|ply|stl)$/.test(name)).map((name) => join(folder, name));
+  if (folder)
+    return readdirSync(folder)
+      .filter((name) => /\.(glb|gltf|obj|off|ply|stl)$/.test(name))
+      .map((name) => join(folder, name));
   const files = ["globe.glb", "materials.glb", "cut_torus.ply"].map((name) => join(root, "assets", name));
   for (const kind of ["blob", "terrain", "parts", "soup", "moebius", "genus"]) {
     const file = join(work, `${kind}.glb`);
@@ -62,5 +74,5 @@ export function sources() {
 export function encode(source, variant, options = VARIANTS[variant]) {
   const file = join(work, `${basename(source)}.${variant.replaceAll(/\W+/g, "-")}.lr`);
   lacedring("encode", source, ...options, "--force", "-o", file);
-  return { file, bytes: new Uint8Array(readFileSync(file)) };
+  return {file, bytes: new Uint8Array(readFileSync(file))};
 }

@@ -1,20 +1,25 @@
-// node gltf_hostile.mjs PACKAGE LACEDRING SCENE... [--runs N] [--seed N]: packs scenes, damages their documents and their bytes at
-// random, and has the package decode them. It may refuse them, in one line, and do nothing else. Exit code 1 otherwise.
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { deflateSync, inflateSync } from "node:zlib";
-import { parseArgs } from "node:util";
-import { joinGlb, splitGlb } from "./gltf_files.mjs";
+// node gltf_hostile.mjs PACKAGE LACEDRING SCENE... [--runs N] [--seed N]: packs scenes, damages their documents and
+// their bytes at random, and has the package decode them. It may refuse them, in one line, and do nothing else. Exit
+// code 1 otherwise.
+import {execFileSync} from "node:child_process";
+import {mkdtempSync, readFileSync, rmSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join, resolve} from "node:path";
+import {parseArgs} from "node:util";
+import {deflateSync, inflateSync} from "node:zlib";
 
-const { values, positionals } = parseArgs({
-  allowPositionals: true, options: { runs: { type: "string", default: "300" }, seed: { type: "string" } },
+import {joinGlb, splitGlb} from "./gltf_files.mjs";
+
+const {values, positionals} = parseArgs({
+  allowPositionals: true,
+  options: {runs: {type: "string", default: "300"}, seed: {type: "string"}},
 });
 const [packagePath, program, ...scenes] = positionals;
-const { EXTENSION, unpackGlb } = await import(resolve(packagePath, "gltf/lacedring-gltf.js"));
-const { LacedRingError } = await import(resolve(packagePath, "lacedring.js"));
-const seed = Number(values.seed ?? Date.now() % 2 ** 31), LIMITS = { maxMemory: 64 << 20 };
+const {EXTENSION, unpackGlb} = await import(resolve(packagePath, "gltf/lacedring-gltf.js"));
+const {LacedRingError} = await import(resolve(packagePath, "lacedring.js"));
+const seed = Number(values.seed ?? Date.now() % 2 ** 31), LIMITS = {
+  maxMemory: 64 << 20
+};
 let state = seed;
 
 function random(below) {
@@ -25,13 +30,22 @@ function random(below) {
 }
 
 const pick = (list) => list[random(list.length)];
-const VALUES = [0, 1, 2, 3, -1, 0.5, 1e300, 2 ** 32, 2 ** 31, 2 ** 53, 255, 65536, "", "POSITION", "constructor", "__proto__", null, true,
-  false, [], {}, [[]], [[0]], [{}], "deflate", "floats"];
+const VALUES = [
+  0,       1,   2,     3,    -1,         0.5,           1e300,       2 ** 32, 2 ** 31,
+  2 ** 53, 255, 65536, "",   "POSITION", "constructor", "__proto__", null,    true,
+  false,   [],  {},    [[]], [[0]],      [{}],          "deflate",   "floats"
+];
 // Most of a document is nothing to the extension. What it reads:
-const READ = new Set(["bufferView", "bufferViews", "buffer", "buffers", "accessors", "sets", "part", "parts", "stream", "streams", "count",
-  "coding", "document", "indices", "byteLength", "byteOffset", "componentType", "type", "ordered", "placeholder", "mode"]);
+const READ = new Set([
+  "bufferView", "bufferViews", "buffer",        "buffers", "accessors", "sets",        "part",
+  "parts",      "stream",      "streams",       "count",   "coding",    "document",    "indices",
+  "byteLength", "byteOffset",  "componentType", "type",    "ordered",   "placeholder", "mode"
+]);
 
-const OPTIONS = [["--document", "plain"], ["--document", "packed"], ["--keep-order", "--document", "packed"], ["--resident", "--fallback"]];
+const OPTIONS = [
+  ["--document", "plain"], ["--document", "packed"], ["--keep-order", "--document", "packed"],
+  ["--resident", "--fallback"]
+];
 
 /** All places of a document: [owner, name]. */
 function places(value, out = []) {
@@ -47,11 +61,16 @@ function damageDocument(json) {
   const read = all.filter(([, name]) => READ.has(name) || /^\d+$/.test(name));
   const [owner, name] = pick(random(4) ? read : all);
   const kind = random(6);
-  if (kind === 0) delete owner[name];
-  else if (kind === 1 && typeof owner[name] === "number") owner[name] += pick([-1, 1, 2, 10]);
-  else if (kind === 2) owner[name] = structuredClone(pick(all).reduce((from, key) => from[key]));
-  else if (kind === 3 && Array.isArray(owner)) owner.push(structuredClone(pick(VALUES)));
-  else owner[name] = structuredClone(pick(VALUES));
+  if (kind === 0)
+    delete owner[name];
+  else if (kind === 1 && typeof owner[name] === "number")
+    owner[name] += pick([-1, 1, 2, 10]);
+  else if (kind === 2)
+    owner[name] = structuredClone(pick(all).reduce((from, key) => from[key]));
+  else if (kind === 3 && Array.isArray(owner))
+    owner.push(structuredClone(pick(VALUES)));
+  else
+    owner[name] = structuredClone(pick(VALUES));
 }
 
 function damageBytes(bytes) {
@@ -60,7 +79,9 @@ function damageBytes(bytes) {
   return random(8) ? out : out.subarray(0, random(out.length));
 }
 
-/** Changes the contents of a zlib stream that is a buffer view, the inner document or part codes, and mends the view. */
+/**
+ * Changes the contents of a zlib stream that is a buffer view, the inner document or part codes, and mends the view.
+ */
 function damageInside(scene, view) {
   const place = scene.json.bufferViews[view], at = place.byteOffset ?? 0;
   let contents = inflateSync(scene.binary.subarray(at, at + place.byteLength));
@@ -73,7 +94,7 @@ function damageInside(scene, view) {
   }
   const deflated = deflateSync(contents);
   const binary = Buffer.concat([scene.binary, Buffer.alloc(-scene.binary.length & 7), deflated]);
-  Object.assign(place, { buffer: 0, byteOffset: binary.length - deflated.length, byteLength: deflated.length });
+  Object.assign(place, {buffer: 0, byteOffset: binary.length - deflated.length, byteLength: deflated.length});
   scene.json.buffers[0].byteLength = binary.length;
   scene.binary = binary;
 }
@@ -81,26 +102,33 @@ function damageInside(scene, view) {
 function damaged(source) {
   if (random(4) === 0) return damageBytes(source);
   const scene = splitGlb(source), extension = scene.json.extensions[EXTENSION];
-  const inside = [extension.document, ...(extension.streams ?? []).map(({ parts }) => parts)].filter((view) => view !== undefined);
-  if (inside.length > 0 && random(3)) damageInside(scene, pick(inside));
-  else for (let i = 0; i < 1 + random(2); i++) damageDocument(scene.json);
+  const inside =
+    [extension.document, ...(extension.streams ?? []).map(({parts}) => parts)].filter((view) => view !== undefined);
+  if (inside.length > 0 && random(3))
+    damageInside(scene, pick(inside));
+  else
+    for (let i = 0; i < 1 + random(2); i++) damageDocument(scene.json);
   if (random(8) === 0) scene.binary = damageBytes(scene.binary);
   return joinGlb(scene.json, scene.binary);
 }
 
 const folder = mkdtempSync(join(tmpdir(), "lacedring-hostile-"));
-const counts = { decoded: 0, refused: 0, failed: 0 };
+const counts = {
+  decoded: 0,
+  refused: 0,
+  failed: 0
+};
 const isOurs = (error) => error instanceof LacedRingError || error.message.startsWith(`${EXTENSION}: `);
 try {
   for (const scene of scenes) {
     for (const options of OPTIONS) {
       const file = join(folder, "packed.glb");
-      execFileSync(program, ["pack", "--force", ...options, scene, "-o", file], { stdio: "pipe" });
+      execFileSync(program, ["pack", "--force", ...options, scene, "-o", file], {stdio: "pipe"});
       const source = new Uint8Array(readFileSync(file));
       for (let run = 0; run < Number(values.runs); run++) {
         const before = state, bytes = damaged(source), start = performance.now();
         try {
-          await unpackGlb(bytes, async (_, uri) => new Uint8Array(Buffer.from(uri)), { limits: LIMITS });
+          await unpackGlb(bytes, async (_, uri) => new Uint8Array(Buffer.from(uri)), {limits: LIMITS});
           counts.decoded++;
         } catch (error) {
           const isGood = isOurs(error) && !error.message.includes("\n") && error.message.length < 300;
@@ -108,12 +136,13 @@ try {
           if (!isGood) console.log(`FAILED ${scene} ${options.join(" ")}, state ${before}: ${error.stack}`);
         }
         const time = performance.now() - start;
-        if (time > 5000) console.log(`FAILED ${scene} ${options.join(" ")}, state ${before}: ${time.toFixed(0)} ms`, counts.failed++);
+        if (time > 5000)
+          console.log(`FAILED ${scene} ${options.join(" ")}, state ${before}: ${time.toFixed(0)} ms`, counts.failed++);
       }
     }
   }
 } finally {
-  rmSync(folder, { recursive: true });
+  rmSync(folder, {recursive: true});
 }
 console.log(`seed ${seed}: ${JSON.stringify(counts)}`);
 process.exit(counts.failed ? 1 : 0);

@@ -1,20 +1,21 @@
-// Damaged files: each decodes, or throws LacedRingError; in time, and in memory that is bounded. LACEDRING_MUTATIONS: how many (2000),
-// LACEDRING_SEED: where to begin. The seed of a failure is in its message.
+// Damaged files: each decodes, or throws LacedRingError; in time, and in memory that is bounded. LACEDRING_MUTATIONS:
+// how many (2000), LACEDRING_SEED: where to begin. The seed of a failure is in its message.
 import assert from "node:assert/strict";
-import { join } from "node:path";
+import {join} from "node:path";
 import test from "node:test";
-import { damage, mend, random } from "./damage.mjs";
-import { VARIANTS, encode, root, sources } from "./files.mjs";
+
+import {damage, mend, random} from "./damage.mjs";
+import {encode, root, sources, VARIANTS} from "./files.mjs";
 
 const memories = new Set();
-const { Instance } = WebAssembly;
-WebAssembly.Instance = function (...args) {
+const {Instance} = WebAssembly;
+WebAssembly.Instance = function(...args) {
   const made = new Instance(...args);
   memories.add(new WeakRef(made.exports.memory));
   return made;
 };
-const { validate } = WebAssembly;
-const { LacedRingError, ready, decodeMesh } = await import(join(root, "build/js/lacedring.js"));
+const {validate} = WebAssembly;
+const {LacedRingError, ready, decodeMesh} = await import(join(root, "build/js/lacedring.js"));
 await ready;
 WebAssembly.validate = () => false;
 const scalar = await import(join(root, "build/js/lacedring.js") + "?scalar");
@@ -27,7 +28,7 @@ const MOST = 64 * 2 ** 20;  // bytes that decoding may take
 /** What decoding does: a mesh, or the code of an error. */
 function outcome(decode, bytes) {
   try {
-    return decode(bytes, { limits: { maxMemory: MOST } });
+    return decode(bytes, {limits: {maxMemory: MOST}});
   } catch (error) {
     assert.ok(error instanceof LacedRingError, error.stack);
     assert.ok(!/\n/.test(error.message) && error.code !== "UNKNOWN", error.message);
@@ -36,9 +37,12 @@ function outcome(decode, bytes) {
 }
 
 test("damaged files", () => {
-  const files = sources().flatMap((source) => Object.keys(VARIANTS).map((variant) => ({ name: `${source.split("/").pop()}, ${variant}`, ...encode(source, variant) })))
-    .filter(({ bytes }) => bytes.length < 200000);
-  for (const { name, bytes } of files) {  // mend keeps what is sound
+  const files = sources()
+                  .flatMap(
+                    (source) => Object.keys(VARIANTS).map(
+                      (variant) => ({name: `${source.split("/").pop()}, ${variant}`, ...encode(source, variant)})))
+                  .filter(({bytes}) => bytes.length < 200000);
+  for (const {name, bytes} of files) {  // mend keeps what is sound
     const copy = bytes.slice();
     mend(copy);
     assert.deepEqual(copy, bytes, name);
@@ -46,21 +50,25 @@ test("damaged files", () => {
   const codes = {};
   let slowest = 0, largest = 0;
   for (let seed = first; seed < first + count; ++seed) {
-    const next = random(seed), { name, bytes } = files[next(files.length)], damaged = damage(bytes, next);
+    const next = random(seed), {name, bytes} = files[next(files.length)], damaged = damage(bytes, next);
     try {
       const begin = performance.now(), result = outcome(decodeMesh, damaged);
       slowest = Math.max(slowest, performance.now() - begin);
-      codes[typeof result === "string" ? result : "decodes"] = (codes[typeof result === "string" ? result : "decodes"] ?? 0) + 1;
+      codes[typeof result === "string" ? result : "decodes"] =
+        (codes[typeof result === "string" ? result : "decodes"] ?? 0) + 1;
       const other = outcome(scalar.decodeMesh, damaged);
-      if (typeof result === "string") assert.equal(typeof other, "string", "the scalar module decodes it");
-      else assert.deepEqual(other, result);
+      if (typeof result === "string")
+        assert.equal(typeof other, "string", "the scalar module decodes it");
+      else
+        assert.deepEqual(other, result);
     } catch (error) {
       error.message = `seed ${seed}, ${name}: ${error.message}`;
       throw error;
     }
     for (const memory of memories) largest = Math.max(largest, memory.deref()?.buffer.byteLength ?? 0);
   }
-  console.log(`${count} damaged files: ${JSON.stringify(codes)}; slowest ${slowest.toFixed(1)} ms; largest memory ${(largest / 2 ** 20).toFixed(1)} MiB`);
+  console.log(`${count} damaged files: ${JSON.stringify(codes)}; slowest ${slowest.toFixed(1)} ms; largest memory ${
+    (largest / 2 ** 20).toFixed(1)} MiB`);
   assert.ok(codes.TRAP === undefined, "a trap");
   assert.ok(largest <= MOST + 2 ** 20);
 });

@@ -1,8 +1,8 @@
-// Decodes all that an .lr file holds with shaders/include/*.wgsl in compute shaders, and compares every integer with what the readers in
-// tests/independent decode.
-import { Kernel, createBuffer, openDevice, readBuffer } from "/gpu/gpu.js";
-import { crc32, readLr } from "/gpu/lr-file.js";
-import { LacedRingError } from "/lacedring/errors.js";
+// Decodes all that an .lr file holds with shaders/include/*.wgsl in compute shaders, and compares every integer with
+// what the readers in tests/independent decode.
+import {createBuffer, Kernel, openDevice, readBuffer} from "/gpu/gpu.js";
+import {crc32, readLr} from "/gpu/lr-file.js";
+import {LacedRingError} from "/lacedring/errors.js";
 
 const NULL = 0xffffffff, GUARD = 0xdeadbeef;
 const include = async (name) => (await fetch(`/shaders/${name}.wgsl`)).text();
@@ -10,14 +10,14 @@ const include = async (name) => (await fetch(`/shaders/${name}.wgsl`)).text();
 let device;
 window.open_ = async () => {
   device = await openDevice();
-  device.addEventListener("uncapturederror", ({ error }) => console.error(error.message));
+  device.addEventListener("uncapturederror", ({error}) => console.error(error.message));
 };
 
 /** What the compiler says of a shader that is put together from includes and a text. */
 window.compile = async (names, text) => {
   const includes = await Promise.all(names.map(include));
-  const { messages } = await device.createShaderModule({ code: includes.join("") + text }).getCompilationInfo();
-  return messages.map(({ message, lineNum }) => `line ${lineNum}: ${message}`);
+  const {messages} = await device.createShaderModule({code: includes.join("") + text}).getCompilationInfo();
+  return messages.map(({message, lineNum}) => `line ${lineNum}: ${message}`);
 };
 
 const kernels = new Map();
@@ -38,19 +38,25 @@ async function read(buffer, words) {
   return out.subarray(0, words);
 }
 
-const STREAM = { words: ["read", "u32"], result: ["write", "u32"] };
+const STREAM = {
+  words: ["read", "u32"],
+  result: ["write", "u32"]
+};
 const WORDS = "fn lr_stream_word(i: u32) -> u32 { return words[i]; }";
 const PUT3 = "fn put3(at: u32, v: vec3u) { result[at] = v.x; result[at + 1u] = v.y; result[at + 2u] = v.z; }";
 const RUNS = {
   lean: ["lacedring", `${WORDS} ${PUT3} fn run(i: u32) { put3(3u * i, lr_lean_triangle(lr_lean_layout(), i)); }`],
   packed: ["lacedring", `${WORDS} ${PUT3} fn run(i: u32) { put3(3u * i, lr_packed_triangle(lr_packed_layout(), i)); }`],
-  quads: ["lacedring", `${WORDS} ${PUT3} fn run(i: u32) {
+  quads: [
+    "lacedring", `${WORDS} ${PUT3} fn run(i: u32) {
     let p = lr_packed_layout();
     let count = min(lr_packed_triangles(p) - 4u * i, 4u);
     lr_packed_triangles_of_quad(p, 4u * i, count);
     for (var j = 0u; j < count; j++) { put3(12u * i + 3u * j, lr_packed_quad[j]); }
-  }`],
-  lr: ["lacedring_operators", `fn lr_table_word(i: u32) -> u32 { return words[i]; }
+  }`
+  ],
+  lr: [
+    "lacedring_operators", `fn lr_table_word(i: u32) -> u32 { return words[i]; }
   fn run(c: u32) {
     let lr = lr_op_layout();
     let at = 8u * c;
@@ -63,14 +69,17 @@ const RUNS = {
     result[at + 5u] = lr_right(lr, c);
     result[at + 6u] = lr_swing(lr, c);
     result[at + 7u] = lr_swing_back(lr, c);
-  }`],
-  stars: ["lacedring_operators", `fn lr_table_word(i: u32) -> u32 { return words[i]; }
+  }`
+  ],
+  stars: [
+    "lacedring_operators", `fn lr_table_word(i: u32) -> u32 { return words[i]; }
   fn run(v: u32) {
     let lr = lr_op_layout();
     result[3u * v] = lr_corner(lr, v);
     result[3u * v + 1u] = lr_star_first(lr, v);
     result[3u * v + 2u] = lr_valence(lr, v);
-  }`],
+  }`
+  ],
 };
 
 /** Runs one of them over a stream: `each` words for each of so many invocations. */
@@ -78,7 +87,7 @@ async function runOver(name, stream, invocations, each, words = each * invocatio
   const [file, code] = RUNS[name];
   const compiled = await kernel(name, STREAM, await include(file) + code);
   const source = createBuffer(device, name, stream.byteLength, stream), result = output(words);
-  compiled.run({ words: source, result }, invocations);
+  compiled.run({words: source, result}, invocations);
   const out = await read(result, words);
   source.destroy();
   return out;
@@ -91,7 +100,8 @@ class Check {
 
   equal(what, got, expected) {
     this.values += expected.length;
-    if (got.length !== expected.length) return this.problems.push(`${what}: ${got.length} values, not ${expected.length}`);
+    if (got.length !== expected.length)
+      return this.problems.push(`${what}: ${got.length} values, not ${expected.length}`);
     const at = expected.findIndex((value, i) => value !== null && (value >>> 0) !== got[i]);
     if (at >= 0) this.problems.push(`${what}: value ${at} is ${got[at]}, not ${expected[at]}`);
   }
@@ -116,15 +126,17 @@ async function checkTriangles(check, file, expected) {
 
 const next = (c) => (c % 4 === 2 ? c - 2 : c + 1), previous = (c) => (c % 4 === 0 ? c + 2 : c - 1);
 
-async function checkOperators(check, file, { vertex, opposite }) {
+async function checkOperators(check, file, {vertex, opposite}) {
   const across = (c) => opposite[c] ?? NULL, turn = (c, by) => (across(by(c)) === NULL ? NULL : by(across(by(c))));
   const got = await runOver("lr", file.stream, 4 * file.slots, 8);
-  const ofCorner = (c, v) => [1, c, v, across(c), across(next(c)), across(previous(c)), turn(c, next), turn(c, previous)];
+  const ofCorner =
+    (c, v) => [1, c, v, across(c), across(next(c)), across(previous(c)), turn(c, next), turn(c, previous)];
   check.equal("operators", got, vertex.flatMap((v, c) => (v === null ? Array(8).fill(null) : ofCorner(c, v))));
   const canonical = (c) => got[8 * c + 1];
   for (let c = 0; c < vertex.length; c++) {  // numbers of first copies lead to the same corner
     if (c % 4 === 3 || vertex[c] !== null || canonical(c) === NULL) continue;
-    if (vertex[canonical(c)] !== got[8 * c + 2]) check.problems.push(`corner ${c} is of another vertex than its canonical number`);
+    if (vertex[canonical(c)] !== got[8 * c + 2])
+      check.problems.push(`corner ${c} is of another vertex than its canonical number`);
   }
   const stars = await runOver("stars", file.stream, file.vertices, 3);
   const count = new Uint32Array(file.vertices), border = new Uint8Array(file.vertices);
@@ -135,13 +147,18 @@ async function checkOperators(check, file, { vertex, opposite }) {
   });
   for (let v = 0; v < file.vertices; v++) {
     const [corner, first, valence] = stars.subarray(3 * v, 3 * v + 3);
-    const right = count[v] === 0 ? corner === NULL && first === NULL
-      : vertex[corner] === v && vertex[first] === v && (border[v] === 1) === (turn(first, previous) === NULL);
+    const right = count[v] === 0 ?
+      corner === NULL && first === NULL :
+      vertex[corner] === v && vertex[first] === v && (border[v] === 1) === (turn(first, previous) === NULL);
     if (!right || valence !== count[v] + border[v]) check.problems.push(`the star of vertex ${v} is wrong`);
   }
 }
 
-const VERTEX = { ...STREAM, floats: ["write", "u32"], directions: ["write", "i32"] };
+const VERTEX = {
+  ...STREAM,
+  floats: ["write", "u32"],
+  directions: ["write", "i32"]
+};
 const vertexCode = (n) => `const LR_VERTEX_COMPONENTS = ${n}u;
 fn lr_vertex_word(i: u32) -> u32 { return words[i]; }
 var<private> wanted: u32;
@@ -159,18 +176,20 @@ fn lr_vertex_put(i: u32) {
   }
 }`;
 const BLOCKS = "fn run(i: u32) { wanted = 0xffffffffu; head = lr_vertex_layout(); lr_vertex_block(head, i, 128u); }";
-const SINGLE = "fn run(i: u32) { wanted = i; head = lr_vertex_layout(); lr_vertex_block(head, i / 128u, i % 128u + 1u); }";
+const SINGLE =
+  "fn run(i: u32) { wanted = i; head = lr_vertex_layout(); lr_vertex_block(head, i / 128u, i % 128u + 1u); }";
 
 /** All blocks, with the mapping as a pipeline constant; then each vertex alone, with the mapping of the header. */
-async function checkVertices(check, { name, words, integers, count, mapping }, expected) {
+async function checkVertices(check, {name, words, integers, count, mapping}, expected) {
   const text = await include("lacedring_vertices");
   for (const alone of [false, true]) {
-    const what = `${name}${alone ? ", each alone" : ""}`, constants = alone ? {} : { LR_VERTEX_MAPPING: mapping };
-    const compiled = await kernel(`vertices ${integers} ${alone ? "alone" : mapping}`, VERTEX,
+    const what = `${name}${alone ? ", each alone" : ""}`, constants = alone ? {} : {LR_VERTEX_MAPPING: mapping};
+    const compiled = await kernel(
+      `vertices ${integers} ${alone ? "alone" : mapping}`, VERTEX,
       text + vertexCode(integers) + (alone ? SINGLE : BLOCKS), constants);
     const source = createBuffer(device, name, words.byteLength, words);
     const [result, floats, directions] = [integers, integers, 3].map((n) => output(n * count));
-    compiled.run({ words: source, result, floats, directions }, alone ? count : Math.ceil(count / 128));
+    compiled.run({words: source, result, floats, directions}, alone ? count : Math.ceil(count / 128));
     check.equal(`${what}: integers`, await read(result, integers * count), expected.integers);
     if (expected.floats) check.equal(`${what}: floats`, await read(floats, integers * count), expected.floats);
     if (expected.directions) check.equal(`${what}: directions`, await read(directions, 3 * count), expected.directions);
@@ -178,8 +197,14 @@ async function checkVertices(check, { name, words, integers, count, mapping }, e
   }
 }
 
-const SEAMS = { words: ["read", "u32"], indices: ["read", "u32"], homes: ["write", "u32"], copies: ["write", "u32"], vertex_of: ["write", "u32"],
-  sizes: ["uniform", "vec4u"] };
+const SEAMS = {
+  words: ["read", "u32"],
+  indices: ["read", "u32"],
+  homes: ["write", "u32"],
+  copies: ["write", "u32"],
+  vertex_of: ["write", "u32"],
+  sizes: ["uniform", "vec4u"]
+};
 const SEAM_CODE = `fn lr_seam_word(i: u32) -> u32 { return words[i]; }
 fn lr_seam_put_home(v: u32, value: u32) { homes[v] = value; }
 fn lr_seam_home(v: u32) -> u32 { return homes[v]; }
@@ -195,22 +220,32 @@ fn run(i: u32) {
 async function checkSeams(check, file, expected) {
   const compiled = await kernel("seams", SEAMS, await include("lacedring_seams") + SEAM_CODE);
   const indices = Uint32Array.from(expected.slots.flatMap((slot) => (slot.length ? slot : [0, 0, 0])));
-  const buffers = { words: createBuffer(device, "seams", file.seams.byteLength + 8, file.seams),
-    indices: createBuffer(device, "indices", indices.byteLength, indices), homes: output(file.vertices + 1), copies: output(indices.length),
-    vertex_of: output(file.copies) };
+  const buffers = {
+    words: createBuffer(device, "seams", file.seams.byteLength + 8, file.seams),
+    indices: createBuffer(device, "indices", indices.byteLength, indices),
+    homes: output(file.vertices + 1),
+    copies: output(indices.length),
+    vertex_of: output(file.copies)
+  };
   for (const [second, count] of [[0, file.vertices], [1, file.slots]]) {
-    const sizes = device.createBuffer({ size: 16, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST });
+    const sizes = device.createBuffer({size: 16, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST});
     device.queue.writeBuffer(sizes, 0, new Uint32Array([file.vertices, file.slots, second, 0]));
-    compiled.run({ ...buffers, sizes }, Math.ceil(count / 512));
+    compiled.run({...buffers, sizes}, Math.ceil(count / 512));
   }
-  check.equal("copies", await read(buffers.copies, indices.length), expected.copies.flatMap((copies) => (copies.length ? copies : [0, 0, 0])));
+  check.equal(
+    "copies", await read(buffers.copies, indices.length),
+    expected.copies.flatMap((copies) => (copies.length ? copies : [0, 0, 0])));
   check.equal("vertices of copies", await read(buffers.vertex_of, file.copies), expected.vertex_of);
 }
 
-const MAGICS = { 0x4e4c524c: "lean", 0x5443524c: "lr", 0x3250524c: "packed" };
+const MAGICS = {
+  0x4e4c524c: "lean",
+  0x5443524c: "lr",
+  0x3250524c: "packed"
+};
 /** A stream alone, as readLr would return it. */
-function golden({ words, slots, vertices }) {
-  return { kind: MAGICS[words[0]], stream: Uint32Array.from(words), slots: slots.length, vertices, attributes: [] };
+function golden({words, slots, vertices}) {
+  return {kind: MAGICS[words[0]], stream: Uint32Array.from(words), slots: slots.length, vertices, attributes: []};
 }
 
 /** Compares a file, or a golden stream, with what is expected of it, FILE.json: { problems, values, slots }. */
@@ -224,10 +259,10 @@ window.check = async (url) => {
     await checkTriangles(check, file, expected);
   }
   if (file.seams) await checkSeams(check, file, expected);
-  const streams = file.attributes.filter(({ words }) => words);
+  const streams = file.attributes.filter(({words}) => words);
   if (streams.length !== expected.attributes.length) check.problems.push("another number of vertex streams");
   for (const [i, stream] of streams.entries()) await checkVertices(check, stream, expected.attributes[i]);
-  return { problems: check.problems, values: check.values, slots: file.slots };
+  return {problems: check.problems, values: check.values, slots: file.slots};
 };
 
 /** SplitMix32: numbers below a bound. */
@@ -241,8 +276,8 @@ function random(seed) {
 }
 
 /**
- * Decodes a file's streams with bits of theirs flipped, or words at random: whatever comes out, every shader ends and the device stays.
- * Returns the milliseconds of the slowest.
+ * Decodes a file's streams with bits of theirs flipped, or words at random: whatever comes out, every shader ends and
+ * the device stays. Returns the milliseconds of the slowest.
  */
 window.damage = async (url, trials, seed) => {
   const file = readLr(new Uint8Array(await (await fetch(url)).arrayBuffer())), below = random(seed);
@@ -266,9 +301,9 @@ window.damage = async (url, trials, seed) => {
       await runOver(file.kind, stream, file.slots, 3);
       if (file.kind === "packed") await runOver("quads", stream, Math.ceil(file.slots / 4), 12);
     }
-    if (file.seams) await checkSeams(check, { ...file, seams: damaged(file.seams, 2) }, expected);
-    const { words, ...position } = file.attributes[0];
-    await checkVertices(check, { ...position, words: damaged(words, 4) }, expected.attributes[0]);
+    if (file.seams) await checkSeams(check, {...file, seams: damaged(file.seams, 2)}, expected);
+    const {words, ...position} = file.attributes[0];
+    await checkVertices(check, {...position, words: damaged(words, 4)}, expected.attributes[0]);
     slowest = Math.max(slowest, performance.now() - start);
   }
   return slowest;
@@ -289,18 +324,23 @@ function changed(bytes, below) {
   return below(20) === 0 ? out.subarray(0, below(out.length)) : out;
 }
 
-/** Reads changed files: each is refused by an Error of one line, or asks for no more than its bytes can hold. Returns what is wrong. */
+/**
+ * Reads changed files: each is refused by an Error of one line, or asks for no more than its bytes can hold. Returns
+ * what is wrong.
+ */
 window.changeFile = async (url, trials, seed) => {
   const bytes = new Uint8Array(await (await fetch(url)).arrayBuffer()), below = random(seed), wrong = [];
   let refused = 0;
   for (let trial = 0; trial < trials; trial++) {
     try {
-      const { slots, vertices, copies } = readLr(changed(bytes, below));
-      if (slots > 64 * bytes.length || vertices > 256 * bytes.length || copies > 256 * bytes.length) wrong.push(`trial ${trial}: ${slots} ${vertices} ${copies}`);
+      const {slots, vertices, copies} = readLr(changed(bytes, below));
+      if (slots > 64 * bytes.length || vertices > 256 * bytes.length || copies > 256 * bytes.length)
+        wrong.push(`trial ${trial}: ${slots} ${vertices} ${copies}`);
     } catch (error) {
       refused++;
-      if (![Error, LacedRingError].includes(error.constructor) || error.message.includes("\n")) wrong.push(`trial ${trial}: ${error}`);
+      if (![Error, LacedRingError].includes(error.constructor) || error.message.includes("\n"))
+        wrong.push(`trial ${trial}: ${error}`);
     }
   }
-  return { wrong, refused };
+  return {wrong, refused};
 };

@@ -1,29 +1,32 @@
-// Draws .lr files by every path of web/gpu, and from the index buffer that the CPU decodes, and counts the pixels that differ.
-import { Orbit } from "/gpu/camera.js";
-import { Gl2Mesh, loadGlsl } from "/gpu/gl2.js";
-import { createBuffer, openDevice, readBuffer } from "/gpu/gpu.js";
-import { readLr } from "/gpu/lr-file.js";
-import { GpuMesh } from "/gpu/mesh.js";
-import { Renderer } from "/gpu/renderer.js";
-import { loadIncludes } from "/gpu/shaders.js";
+// Draws .lr files by every path of web/gpu, and from the index buffer that the CPU decodes, and counts the pixels that
+// differ.
+import {Orbit} from "/gpu/camera.js";
+import {Gl2Mesh, loadGlsl} from "/gpu/gl2.js";
+import {createBuffer, openDevice, readBuffer} from "/gpu/gpu.js";
+import {readLr} from "/gpu/lr-file.js";
+import {GpuMesh} from "/gpu/mesh.js";
+import {Renderer} from "/gpu/renderer.js";
+import {loadIncludes} from "/gpu/shaders.js";
 
 const WIDTH = 640, HEIGHT = 480, BACKGROUND = [0, 0, 0, 0];
-const MOST_BLOCKS = 100000;  // slots that are drawn with positions out of their blocks: half a block is read for each corner
+const MOST_BLOCKS =
+  100000;  // slots that are drawn with positions out of their blocks: half a block is read for each corner
 
 let device, includes, renderer, target;
 window.open_ = async () => {
   [device, includes] = await Promise.all([openDevice(), loadIncludes()]);
-  device.addEventListener("uncapturederror", ({ error }) => console.error(error.message));
+  device.addEventListener("uncapturederror", ({error}) => console.error(error.message));
   renderer = new Renderer(device, "rgba8unorm");
-  target = device.createTexture({ size: [WIDTH, HEIGHT], format: "rgba8unorm", usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+  target = device.createTexture(
+    {size: [WIDTH, HEIGHT], format: "rgba8unorm", usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC});
 };
 
 /** The pixels of the target, a word each. */
 async function pixels() {
   const size = 4 * WIDTH * HEIGHT;  // rows are multiples of 256 bytes
-  const buffer = device.createBuffer({ size, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+  const buffer = device.createBuffer({size, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ});
   const encoder = device.createCommandEncoder();
-  encoder.copyTextureToBuffer({ texture: target }, { buffer, bytesPerRow: 4 * WIDTH }, [WIDTH, HEIGHT]);
+  encoder.copyTextureToBuffer({texture: target}, {buffer, bytesPerRow: 4 * WIDTH}, [WIDTH, HEIGHT]);
   device.queue.submit([encoder.finish()]);
   await buffer.mapAsync(GPUMapMode.READ);
   const out = new Uint32Array(buffer.getMappedRange().slice(0));
@@ -47,40 +50,55 @@ async function timed(times, work) {
 const differing = (a, b) => a.reduce((count, pixel, i) => count + (pixel !== b[i]), 0);
 
 /**
- * Compares the paths: for each view { view, covered: pixels, of each path that differ from the CPU's index buffer: { NAME: pixels } }, bytes, and
- * with `times` > 0 milliseconds. The index buffer, of u32, is URL.indices.
+ * Compares the paths: for each view { view, covered: pixels, of each path that differ from the CPU's index buffer: {
+ * NAME: pixels } }, bytes, and with `times` > 0 milliseconds. The index buffer, of u32, is URL.indices.
  */
-window.pictures = async (url, { views, times = 0 }) => {
+window.pictures = async (url, {views, times = 0}) => {
   const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
   const mesh = await GpuMesh.create(device, readLr(await load(url)), includes);
-  const list = await load(`${url}.indices`), plain = { indices: createBuffer(device, "indices", list.length, list), count: list.length / 4 };
-  const camera = new Orbit(mesh.bounds), out = { views: [], bytes: {}, times: {} };
-  const choices = { plain: { path: "expand", plain }, expand: { path: "expand" }, pull: { path: "pull" },
-    ...(mesh.position.words && mesh.file.slots < MOST_BLOCKS ? { "pull, blocks": { path: "pull", blocks: true } } : {}) };
+  const list = await load(`${url}.indices`),
+        plain = {indices: createBuffer(device, "indices", list.length, list), count: list.length / 4};
+  const camera = new Orbit(mesh.bounds), out = {views: [], bytes: {}, times: {}};
+  const choices = {
+    plain: {path: "expand", plain},
+    expand: {path: "expand"},
+    pull: {path: "pull"},
+    ...(mesh.position.words && mesh.file.slots < MOST_BLOCKS ? {"pull, blocks": {path: "pull", blocks: true}} : {})
+  };
   for (const view of views) {
     const drawn = {};
     for (const [name, choice] of Object.entries(choices)) {
-      const draw = await renderer.prepare(mesh, { ...choice, view });
+      const draw = await renderer.prepare(mesh, {...choice, view});
       renderer.draw(target, draw, camera, BACKGROUND);
       drawn[name] = await pixels();
-      const list = Object.entries(mesh.buffers).filter(([buffer]) => draw.needs.has(buffer)).map(([buffer, { size }]) => [buffer, size]);
-      out.bytes[`${view}, ${name}`] = { list, plain: mesh.plainBytes };
-      if (times) out.times[`${view}, ${name}`] = await timed(times, () => renderer.draw(target, draw, camera, BACKGROUND));
+      const list =
+        Object.entries(mesh.buffers).filter(([buffer]) => draw.needs.has(buffer)).map(([buffer,
+                                                                                        {size}]) => [buffer, size]);
+      out.bytes[`${view}, ${name}`] = {list, plain: mesh.plainBytes};
+      if (times)
+        out.times[`${view}, ${name}`] = await timed(times, () => renderer.draw(target, draw, camera, BACKGROUND));
       if (times && name === "expand") out.times.expanding = await timed(times, () => mesh.expand());
     }
-    const { plain: reference, ...others } = drawn;
-    out.views.push({ view, covered: reference.reduce((count, pixel) => count + (pixel !== 0), 0),
-      different: Object.fromEntries(Object.entries(others).map(([name, picture]) => [name, differing(picture, reference)])) });
+    const {plain: reference, ...others} = drawn;
+    out.views.push({
+      view,
+      covered: reference.reduce((count, pixel) => count + (pixel !== 0), 0),
+      different:
+        Object.fromEntries(Object.entries(others).map(([name, picture]) => [name, differing(picture, reference)]))
+    });
   }
   mesh.destroy();
   plain.indices.destroy();
   return out;
 };
 
-/** The same in WebGL2, flat: { covered, different: pixels between stream and index buffer, floats: words of positions that differ from expected }. */
+/**
+ * The same in WebGL2, flat: { covered, different: pixels between stream and index buffer, floats: words of positions
+ * that differ from expected }.
+ */
 window.picturesGl2 = async (url) => {
   const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
-  const gl = new OffscreenCanvas(WIDTH, HEIGHT).getContext("webgl2", { antialias: false });
+  const gl = new OffscreenCanvas(WIDTH, HEIGHT).getContext("webgl2", {antialias: false});
   const mesh = new Gl2Mesh(gl, readLr(await load(url)), await loadGlsl()), list = await load(`${url}.indices`);
   const indices = gl.createBuffer(), camera = new Orbit(mesh.bounds).matrices(WIDTH / HEIGHT);
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
@@ -93,8 +111,12 @@ window.picturesGl2 = async (url) => {
   });
   const gpu = await GpuMesh.create(device, mesh.file, includes);
   const words = new Uint32Array(mesh.floats.buffer), expected = await readBuffer(device, gpu.buffers.positions);
-  const out = { covered: pictures[1].reduce((count, pixel) => count + (pixel !== 0), 0), different: differing(...pictures), floats: differing(words, expected),
-    error: gl.getError() };
+  const out = {
+    covered: pictures[1].reduce((count, pixel) => count + (pixel !== 0), 0),
+    different: differing(...pictures),
+    floats: differing(words, expected),
+    error: gl.getError()
+  };
   gpu.destroy();
   mesh.destroy();
   return out;

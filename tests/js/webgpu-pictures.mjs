@@ -1,27 +1,30 @@
-// node webgpu-pictures.mjs LACEDRING [--times N] [MESH...]: draws meshes with web/gpu in headless Chromium, from the stream in the vertex stage, from
-// the expanded index buffer, and from the indices that LACEDRING decodes: 0 pixels may differ. Without MESH those of assets, and the example page
-// itself. --times prints milliseconds, the least of N, and bytes. Exit code 1 if a pixel differs or the console has an error.
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { basename, dirname, join, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
-import { FOLDERS, serve } from "../../scripts/web.mjs";
-import { Page, WEBGPU } from "../browser/chromium.mjs";
+// node webgpu-pictures.mjs LACEDRING [--times N] [MESH...]: draws meshes with web/gpu in headless Chromium, from the
+// stream in the vertex stage, from the expanded index buffer, and from the indices that LACEDRING decodes: 0 pixels may
+// differ. Without MESH those of assets, and the example page itself. --times prints milliseconds, the least of N, and
+// bytes. Exit code 1 if a pixel differs or the console has an error.
+import {execFileSync} from "node:child_process";
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {basename, dirname, join, resolve} from "node:path";
+import {fileURLToPath} from "node:url";
+
+import {FOLDERS, serve} from "../../scripts/web.mjs";
+import {Page, WEBGPU} from "../browser/chromium.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url)), assets = join(here, "../../assets");
 const work = mkdtempSync(join(tmpdir(), "lacedring-webgpu-"));
 const program = resolve(process.argv[2]), args = process.argv.slice(3);
 const times = args[0] === "--times" ? Number(args.splice(0, 2)[1]) : 0;
-const run = (...options) => execFileSync(program, options, { stdio: "pipe" });
+const run = (...options) => execFileSync(program, options, {stdio: "pipe"});
 
 /** The indices of a GLB that the program wrote: u32. */
 function indicesOf(glb) {
   const data = readFileSync(glb), end = 20 + data.readUInt32LE(12), json = JSON.parse(data.subarray(20, end));
-  const { bufferView, byteOffset = 0, count, componentType } = json.accessors[json.meshes[0].primitives[0].indices];
+  const {bufferView, byteOffset = 0, count, componentType} = json.accessors[json.meshes[0].primitives[0].indices];
   const at = end + 8 + (json.bufferViews[bufferView].byteOffset ?? 0) + byteOffset;
-  const Type = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array }[componentType];
-  return Uint32Array.from(new Type(data.buffer.slice(data.byteOffset + at, data.byteOffset + at + Type.BYTES_PER_ELEMENT * count)));
+  const Type = {5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array}[componentType];
+  return Uint32Array.from(
+    new Type(data.buffer.slice(data.byteOffset + at, data.byteOffset + at + Type.BYTES_PER_ELEMENT * count)));
 }
 
 let failed = 0;
@@ -36,22 +39,25 @@ async function compare(page, mesh, format, options, views) {
   run("encode", "--resident", "--force", "--format", format, ...options, mesh, "-o", file);
   run("decode", "--force", file, "-o", join(work, "decoded.glb"));
   writeFileSync(`${file}.indices`, indicesOf(join(work, "decoded.glb")));
-  const result = await page.evaluate(`pictures("/data/${name}", ${JSON.stringify({ views, times })})`);
-  for (const { view, covered, different } of result.views) {
+  const result = await page.evaluate(`pictures("/data/${name}", ${JSON.stringify({views, times})})`);
+  for (const {view, covered, different} of result.views) {
     const wrong = covered < 1000 || Object.values(different).some((pixels) => pixels > 0);
-    const text = `${name}, ${view}: ${covered} pixels covered; different: ${Object.entries(different).map(([path, n]) => `${path} ${n}`).join(", ")}`;
+    const text = `${name}, ${view}: ${covered} pixels covered; different: ${
+      Object.entries(different).map(([path, n]) => `${path} ${n}`).join(", ")}`;
     wrong ? fail(text) : console.log(text);
   }
   if (format !== "lr" && !times && views.includes("flat")) {
-    const { covered, different, floats, error } = await page.evaluate(`picturesGl2("/data/${name}")`);
-    const text = `${name}, WebGL2: ${covered} pixels covered; different: ${different} pixels, ${floats} positions; error ${error}`;
+    const {covered, different, floats, error} = await page.evaluate(`picturesGl2("/data/${name}")`);
+    const text =
+      `${name}, WebGL2: ${covered} pixels covered; different: ${different} pixels, ${floats} positions; error ${error}`;
     covered < 1000 || different || floats || error ? fail(text) : console.log(text);
   }
   if (!times) return;
   for (const [what, ms] of Object.entries(result.times)) console.log(`  ${what}: ${ms} ms`);
-  for (const [what, { list, plain }] of Object.entries(result.bytes)) {
+  for (const [what, {list, plain}] of Object.entries(result.bytes)) {
     const total = list.reduce((sum, [, bytes]) => sum + bytes, 0);
-    console.log(`  ${what}: ${total} bytes (${list.map(([part, bytes]) => `${part} ${bytes}`).join(", ")}); plain ${plain}`);
+    console.log(
+      `  ${what}: ${total} bytes (${list.map(([part, bytes]) => `${part} ${bytes}`).join(", ")}); plain ${plain}`);
   }
 }
 
@@ -62,7 +68,8 @@ async function checkPage(page, host) {
   const shown = (expression) => page.evaluate(`idle().then(() => ${expression})`);
   const error = `document.getElementById("error").hidden ? "" : document.getElementById("error").textContent`;
   await page.show(800, 600);
-  for (const [name, expected] of [["stored.lr", "--resident"], ["garbage.lr", "not an .lr file"], ["missing.lr", "404"]]) {
+  for (const [name, expected] of [
+         ["stored.lr", "--resident"], ["garbage.lr", "not an .lr file"], ["missing.lr", "404"]]) {
     await page.open(`${host}/gpu/?file=/data/${name}`);
     const told = await shown(error);
     if (!told.includes(expected) || told.includes("\n")) fail(`the page says of ${name}: ${told}`);
@@ -70,7 +77,8 @@ async function checkPage(page, host) {
   page.problems = page.problems.filter((problem) => !problem.includes("404"));  // of missing.lr
   await page.open(`${host}/gpu/?file=/data/blob.ply-packed.lr`);
   for (const [path, view] of [["pull", "smooth"], ["pull", "ring"], ["expand", "flat"], ["expand", "classes"]]) {
-    await page.evaluate(`["${path}", "${view}"].forEach((value) => document.querySelector(\`[value=\${value}]\`).click())`);
+    await page.evaluate(
+      `["${path}", "${view}"].forEach((value) => document.querySelector(\`[value=\${value}]\`).click())`);
     const told = await shown(error);
     if (told) fail(`the page says of ${path}, ${view}: ${told}`);
     const size = (await page.screenshot()).length;
@@ -82,14 +90,15 @@ async function checkPage(page, host) {
   if (process.env.SCREENSHOT) writeFileSync(process.env.SCREENSHOT, await page.screenshot());
 }
 
-const server = await serve({ ...FOLDERS, tests: here, data: work });
+const server = await serve({...FOLDERS, tests: here, data: work});
 const page = new Page(WEBGPU);
 try {
   const host = `http://127.0.0.1:${server.address().port}`;
   await page.open(`${host}/tests/webgpu-pictures.html`);
   await page.evaluate("open_()");
   for (const mesh of args) {
-    for (const format of ["packed", "lean"]) await compare(page, mesh, format, ["--positions", "14"], times ? ["flat"] : ["smooth", "flat"]);
+    for (const format of ["packed", "lean"])
+      await compare(page, mesh, format, ["--positions", "14"], times ? ["flat"] : ["smooth", "flat"]);
   }
   if (args.length === 0) {
     const views = ["smooth", "flat", "ring", "classes"], blob = join(work, "blob.ply");
@@ -104,6 +113,6 @@ try {
 } finally {
   await page.close();
   server.close();
-  rmSync(work, { recursive: true });
+  rmSync(work, {recursive: true});
 }
 process.exit(failed ? 1 : 0);

@@ -1,22 +1,26 @@
-// node webgpu.mjs LACEDRING: shaders/include/*.wgsl in headless Chromium's WebGPU. Every triangle, attribute value, copy and operator of files
-// that LACEDRING writes, and of the golden streams, is, integer for integer, that of the readers in tests/independent, and damaged
-// streams neither hang nor lose the device. Exit code 1 otherwise.
-import { execFileSync } from "node:child_process";
-import { copyFileSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, join, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
-import { FOLDERS, serve } from "../../scripts/web.mjs";
-import { Page, WEBGPU } from "../browser/chromium.mjs";
+// node webgpu.mjs LACEDRING: shaders/include/*.wgsl in headless Chromium's WebGPU. Every triangle, attribute value,
+// copy and operator of files that LACEDRING writes, and of the golden streams, is, integer for integer, that of the
+// readers in tests/independent, and damaged streams neither hang nor lose the device. Exit code 1 otherwise.
+import {execFileSync} from "node:child_process";
+import {copyFileSync, mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {dirname, join, resolve} from "node:path";
+import {fileURLToPath} from "node:url";
+
+import {FOLDERS, serve} from "../../scripts/web.mjs";
+import {Page, WEBGPU} from "../browser/chromium.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const GOLDEN = join(here, "../golden"), ASSETS = join(here, "../../assets");
 const program = resolve(process.argv[2]), work = mkdtempSync(join(tmpdir(), "lacedring-webgpu-"));
-const run = (...args) => execFileSync(program, args, { stdio: "pipe" });
+const run = (...args) => execFileSync(program, args, {stdio: "pipe"});
 
 const QUANTIZED = ["--positions", "12", "--normals", "8", "--texcoords", "10"];
 // Meshes, and what is told encode of each.
-const FORMATS = [["lean"], ["packed"], ["packed", "--profile", "cache", ...QUANTIZED], ["lean", "--no-weld", ...QUANTIZED], ["lr", "--positions", "14"]];
+const FORMATS = [
+  ["lean"], ["packed"], ["packed", "--profile", "cache", ...QUANTIZED], ["lean", "--no-weld", ...QUANTIZED],
+  ["lr", "--positions", "14"]
+];
 const KINDS = ["sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup"];
 
 /** Writes the files to check into `work`; returns their names. */
@@ -69,7 +73,7 @@ function fail(text) {
   console.log(`FAILED ${text}`);
 }
 
-const server = await serve({ ...FOLDERS, tests: here, data: work });
+const server = await serve({...FOLDERS, tests: here, data: work});
 const page = new Page(WEBGPU);
 try {
   differentConstants().forEach((name) => fail(`${name} differs from GLSL`));
@@ -79,7 +83,8 @@ try {
   await page.evaluate("open_()");
   if (shownShaders().length < 3) fail("docs/webgpu.md shows no shaders");
   for (const [names, code] of shownShaders()) {
-    for (const message of await page.evaluate(`compile(${JSON.stringify(names)}, ${JSON.stringify(code)})`)) fail(`docs/webgpu.md: ${message}`);
+    for (const message of await page.evaluate(`compile(${JSON.stringify(names)}, ${JSON.stringify(code)})`))
+      fail(`docs/webgpu.md: ${message}`);
   }
   let values = 0, slots = 0;
   for (const name of names) {
@@ -90,16 +95,17 @@ try {
   }
   for (const [i, name] of ["soup.ply-1.lr", "globe.glb-2.lr", "torus.ply-0.lr", "moebius.ply-4.lr"].entries()) {
     const slowest = await page.evaluate(`damage("/data/${name}", 25, ${i})`);
-    const { wrong, refused } = await page.evaluate(`changeFile("/data/${name}", 500, ${i})`);
+    const {wrong, refused} = await page.evaluate(`changeFile("/data/${name}", 500, ${i})`);
     wrong.slice(0, 3).forEach((problem) => fail(`${name}, changed: ${problem}`));
     if (refused < 50 || refused === 500) fail(`${name}: ${refused} of 500 changed files are refused`);
     if (slowest > 20000) fail(`${name}, damaged: ${Math.round(slowest)} ms`);
   }
   page.problems.forEach(fail);
-  console.log(`${names.length} files, 100 damaged ones, 2,000 changed ones, ${slots.toLocaleString("en-US")} triangles, ${values.toLocaleString("en-US")} integers compared`);
+  console.log(`${names.length} files, 100 damaged ones, 2,000 changed ones, ${
+    slots.toLocaleString("en-US")} triangles, ${values.toLocaleString("en-US")} integers compared`);
 } finally {
   await page.close();
   server.close();
-  rmSync(work, { recursive: true });
+  rmSync(work, {recursive: true});
 }
 process.exit(failed ? 1 : 0);

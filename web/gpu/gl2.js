@@ -1,6 +1,6 @@
 // Draws a mesh from its stream in WebGL2. The stream is a texture. The vertex shader decodes triangles with
 // shaders/include/lacedring.glsl. Positions are decoded once, by a fragment shader with one fragment per vertex.
-import { boundsOf } from "./mesh.js";
+import {boundsOf} from "./mesh.js";
 
 const WIDTH = 2048;  // of the textures: every WebGL2 device supports 2048 x 2048
 
@@ -54,7 +54,8 @@ void main() {
   color = vec4(pow(vec3(0.62, 0.62, 0.6) * (0.25 + 0.2 * n.y + 0.6 * max(dot(n, to_eye), 0.0)), vec3(1.0 / 2.2)), 1.0);
 }`;
 
-const WHOLE = "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }";
+const WHOLE =
+  "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }";
 // One vertex per fragment: decodes the vertex's block up to it.
 const DECODE = `uniform usampler2D words;
 out uvec4 place;
@@ -77,7 +78,8 @@ void main() {
 /** Returns a function that replaces #include lines by the files of shaders/include, and adds the prelude. */
 export async function loadGlsl(folder = new URL("../shaders/", import.meta.url)) {
   const texts = {};
-  for (const name of ["lacedring.glsl", "lacedring_vertices.glsl"]) texts[name] = await (await fetch(new URL(name, folder))).text();
+  for (const name of ["lacedring.glsl", "lacedring_vertices.glsl"])
+    texts[name] = await (await fetch(new URL(name, folder))).text();
   return (text) => PRELUDE + text.replace(/#include "(.*)"/g, (_, name) => texts[name]);
 }
 
@@ -99,23 +101,25 @@ function compile(gl, vertex, fragment) {
 function createTexture(gl, what, elements, each, data) {
   const height = Math.max(Math.ceil(elements / WIDTH), 1), most = gl.getParameter(gl.MAX_TEXTURE_SIZE);
   if (height > most) throw new Error(`${what}: needs a texture of ${height} rows; this device allows ${most}`);
-  const texture = gl.createTexture(), [internal, layout] = each === 1 ? [gl.R32UI, gl.RED_INTEGER] : [gl.RGBA32UI, gl.RGBA_INTEGER];
+  const texture = gl.createTexture(),
+        [internal, layout] = each === 1 ? [gl.R32UI, gl.RED_INTEGER] : [gl.RGBA32UI, gl.RGBA_INTEGER];
   let padded = null;
   if (data) (padded = new Uint32Array(each * WIDTH * height)).set(data);
   gl.bindTexture(gl.TEXTURE_2D, texture);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   gl.texImage2D(gl.TEXTURE_2D, 0, internal, WIDTH, height, 0, layout, gl.UNSIGNED_INT, padded);
-  return { texture, height, bytes: 4 * each * WIDTH * height };
+  return {texture, height, bytes: 4 * each * WIDTH * height};
 }
 
 export class Gl2Mesh {
   /** file: from readLr, lean or packed. glsl: from loadGlsl. */
   constructor(gl, file, glsl) {
-    const position = file.attributes.find(({ name }) => name === "POSITION");
+    const position = file.attributes.find(({name}) => name === "POSITION");
     if (!(file.kind in TRIANGLES)) throw new Error("The WebGL2 page draws only files with a lean or packed stream.");
-    if (!position.words) throw new Error("The WebGL2 page needs compressed positions: write the file with `lacedring encode --resident`.");
-    Object.assign(this, { gl, file });
+    if (!position.words)
+      throw new Error("The WebGL2 page needs compressed positions: write the file with `lacedring encode --resident`.");
+    Object.assign(this, {gl, file});
     this.stream = createTexture(gl, "stream", file.stream.length, 1, file.stream);
     this.positions = createTexture(gl, "positions", file.vertices, 4);
     const words = createTexture(gl, "vertex stream", position.words.length, 1, position.words);
@@ -126,7 +130,7 @@ export class Gl2Mesh {
   }
 
   #decode(glsl, words) {
-    const { gl, positions } = this, program = compile(gl, glsl(WHOLE), glsl(DECODE)), target = gl.createFramebuffer();
+    const {gl, positions} = this, program = compile(gl, glsl(WHOLE), glsl(DECODE)), target = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, positions.texture, 0);
     gl.viewport(0, 0, WIDTH, positions.height);
@@ -139,19 +143,22 @@ export class Gl2Mesh {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.deleteFramebuffer(target);
     gl.deleteProgram(program);
-    this.floats = new Float32Array(read.buffer).subarray(0, 4 * this.file.vertices).filter((_, i) => i % 4 < 3);  // three per vertex
+    this.floats = new Float32Array(read.buffer)
+                    .subarray(0, 4 * this.file.vertices)
+                    .filter((_, i) => i % 4 < 3);  // three per vertex
     this.bounds = boundsOf(this.floats);
   }
 
   destroy() {
-    const { gl } = this;
-    [this.stream, this.positions].forEach(({ texture }) => gl.deleteTexture(texture));
+    const {gl} = this;
+    [this.stream, this.positions].forEach(({texture}) => gl.deleteTexture(texture));
     [this.pulled, this.indexed].forEach((program) => gl.deleteProgram(program));
   }
 
   /** Draws to the canvas. indices: if given, draws this buffer of `count` u32 instead of the stream. */
-  draw({ clipFromWorld, eye }, background, indices, count) {
-    const { gl } = this, program = indices ? this.indexed : this.pulled, uniform = (name) => gl.getUniformLocation(program, name);
+  draw({clipFromWorld, eye}, background, indices, count) {
+    const {gl} = this, program = indices ? this.indexed : this.pulled,
+          uniform = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
     gl.clearColor(...background);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -166,7 +173,9 @@ export class Gl2Mesh {
     gl.uniformMatrix4fv(uniform("clip_from_world"), false, clipFromWorld);
     gl.uniform3fv(uniform("eye"), eye);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices ?? null);
-    if (indices) gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
-    else gl.drawArrays(gl.TRIANGLES, 0, 3 * this.file.slots);
+    if (indices)
+      gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
+    else
+      gl.drawArrays(gl.TRIANGLES, 0, 3 * this.file.slots);
   }
 }

@@ -1,4 +1,5 @@
-// The page's WGSL. Shaders are assembled from shaders/include/*.wgsl and one snippet each for the source of triangles, positions and copies.
+// The page's WGSL. Shaders are assembled from shaders/include/*.wgsl and one snippet each for the source of triangles,
+// positions and copies.
 
 const INCLUDES = ["lacedring", "lacedring_vertices", "lacedring_seams", "lacedring_operators"];
 
@@ -6,13 +7,17 @@ const INCLUDES = ["lacedring", "lacedring_vertices", "lacedring_seams", "lacedri
 export async function loadIncludes(folder = new URL("../shaders/", import.meta.url)) {
   const texts = await Promise.all(INCLUDES.map(async (name) => {
     const response = await fetch(new URL(`${name}.wgsl`, folder));
-    if (!response.ok) throw new Error(`${name}.wgsl was not found: the server must have shaders/include as /shaders/, as scripts/web does`);
+    if (!response.ok)
+      throw new Error(
+        `${name}.wgsl was not found: the server must have shaders/include as /shaders/, as scripts/web does`);
     return response.text();
   }));
   return Object.fromEntries(INCLUDES.map((name, i) => [name, texts[i]]));
 }
 
-const STREAM = { stream: ["read", "u32"] };
+const STREAM = {
+  stream: ["read", "u32"]
+};
 
 /** Access to the words of a stream, and fn ring_edge(a, b): whether b is the next vertex after a on its ring. */
 const EDGES = {
@@ -43,28 +48,35 @@ const PULL = {
 }`,
 };
 
-/** { table, code } that reads a stream's words, ring edges and triangles. indices: reads triangles from the expanded index buffer. */
+/**
+ * { table, code } that reads a stream's words, ring edges and triangles. indices: reads triangles from the expanded
+ * index buffer.
+ */
 function triangles(includes, kind, indices) {
   const include = includes[kind === "lr" ? "lacedring_operators" : "lacedring"];
-  if (!indices) return { table: STREAM, code: include + EDGES[kind] + PULL[kind] };
+  if (!indices) return {table: STREAM, code: include + EDGES[kind] + PULL[kind]};
   return {
-    table: { ...STREAM, indices: ["read", "u32"] },
+    table: {...STREAM, indices: ["read", "u32"]},
     code: `${include}${EDGES[kind]}
 fn triangle_of(t: u32) -> vec3u { return vec3u(indices[3u * t], indices[3u * t + 1u], indices[3u * t + 2u]); }`,
   };
 }
 
-/** Expands a stream to an index list. One invocation expands four triangles of a packed stream, or one slot of other streams. */
+/**
+ * Expands a stream to an index list. One invocation expands four triangles of a packed stream, or one slot of other
+ * streams.
+ */
 export function expandShader(includes, kind) {
   const run = kind === "packed" ? `fn run(i: u32) {
   let p = lr_packed_layout();
   let count = min(lr_packed_triangles(p) - 4u * i, 4u);
   lr_packed_triangles_of_quad(p, 4u * i, count);
   for (var j = 0u; j < count; j++) { put(4u * i + j, lr_packed_quad[j]); }
-}` : "fn run(i: u32) { put(i, triangle_of(i)); }";
-  const { table, code } = triangles(includes, kind, false);
+}` :
+                                  "fn run(i: u32) { put(i, triangle_of(i)); }";
+  const {table, code} = triangles(includes, kind, false);
   return {
-    table: { ...table, expanded: ["write", "u32"] },
+    table: {...table, expanded: ["write", "u32"]},
     code: `${code}
 fn put(t: u32, v: vec3u) { for (var k = 0u; k < 3u; k++) { expanded[3u * t + k] = v[k]; } }
 ${run}`,
@@ -74,8 +86,14 @@ ${run}`,
 /** Decodes a seam section: vertex blocks (seam_pass 0), then triangle blocks (seam_pass 1). */
 export function seamShader(includes) {
   return {
-    table: { seams: ["read", "u32"], indices: ["read", "u32"], homes: ["write", "u32"], copies: ["write", "u32"], vertex_of: ["write", "u32"],
-      sizes: ["uniform", "vec4u"] },
+    table: {
+      seams: ["read", "u32"],
+      indices: ["read", "u32"],
+      homes: ["write", "u32"],
+      copies: ["write", "u32"],
+      vertex_of: ["write", "u32"],
+      sizes: ["uniform", "vec4u"]
+    },
     code: `${includes.lacedring_seams}
 override seam_pass: u32;
 fn lr_seam_word(i: u32) -> u32 { return seams[i]; }
@@ -92,10 +110,13 @@ fn run(i: u32) {
   };
 }
 
-/** Decodes a vertex stream of 2 or 3 integers to three floats per vertex. One invocation decodes a block of 128 vertices. */
+/**
+ * Decodes a vertex stream of 2 or 3 integers to three floats per vertex. One invocation decodes a block of 128
+ * vertices.
+ */
 export function vertexShader(includes, integers) {
   return {
-    table: { words: ["read", "u32"], floats: ["write", "f32"] },
+    table: {words: ["read", "u32"], floats: ["write", "f32"]},
     code: `const LR_VERTEX_COMPONENTS = ${integers}u;
 ${includes.lacedring_vertices}
 var<private> layout_of_stream: LrVertexLayout;
@@ -117,12 +138,16 @@ fn run(i: u32) {
   };
 }
 
-/** Computes smooth normals for files without normals, in two passes. Sums are integers, so the result does not depend on their order. */
+/**
+ * Computes smooth normals for files without normals, in two passes. Sums are integers, so the result does not depend
+ * on their order.
+ */
 export function normalShaders(includes, kind, indices) {
-  const { table, code } = triangles(includes, kind, indices);
-  return [{
-    table: { ...table, positions: ["read", "f32"], sums: ["write", "atomic<i32>"] },
-    code: `${code}
+  const {table, code} = triangles(includes, kind, indices);
+  return [
+    {
+      table: {...table, positions: ["read", "f32"], sums: ["write", "atomic<i32>"]},
+      code: `${code}
 ${POSITIONS.floats.code}
 fn run(t: u32) {
   let v = triangle_of(t);
@@ -137,24 +162,27 @@ fn run(t: u32) {
     for (var c = 0u; c < 3u; c++) { atomicAdd(&sums[3u * v[k] + c], n[c]); }
   }
 }`,
-  }, {
-    table: { sums: ["read", "i32"], floats: ["write", "f32"] },
-    code: `fn run(v: u32) {
+    },
+    {
+      table: {sums: ["read", "i32"], floats: ["write", "f32"]},
+      code: `fn run(v: u32) {
   let sum = vec3f(vec3i(sums[3u * v], sums[3u * v + 1u], sums[3u * v + 2u]));
   let n = sum / max(length(sum), 1.0);
   for (var c = 0u; c < 3u; c++) { floats[3u * v + c] = n[c]; }
 }`,
-  }];
+    }
+  ];
 }
 
 /** fn position(v): reads the decoded position, or decodes v's block up to v. */
 const POSITIONS = {
   floats: {
-    table: { positions: ["read", "f32"] },
-    code: "fn position(v: u32) -> vec3f { return vec3f(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]); }",
+    table: {positions: ["read", "f32"]},
+    code:
+      "fn position(v: u32) -> vec3f { return vec3f(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]); }",
   },
   blocks: {
-    table: { position_words: ["read", "u32"] },
+    table: {position_words: ["read", "u32"]},
     code: `fn lr_vertex_word(i: u32) -> u32 { return position_words[i]; }
 fn lr_vertex_put(i: u32) {}
 fn position(v: u32) -> vec3f {
@@ -245,29 +273,36 @@ fn line(in: Corner) -> f32 {
 }
 `;
 
-/** Draws the surface. positions: "floats" or "blocks"; hasCopies: normals belong to copies; without hasNormals, normals are 0. */
-export function surfaceShader(includes, { kind, indices, positions, hasCopies, hasNormals }) {
+/**
+ * Draws the surface. positions: "floats" or "blocks"; hasCopies: normals belong to copies; without hasNormals, normals
+ * are 0.
+ */
+export function surfaceShader(includes, {kind, indices, positions, hasCopies, hasNormals}) {
   const source = triangles(includes, kind, indices), vertices = POSITIONS[positions];
-  const table = { ...source.table, ...vertices.table, frame: ["uniform", "Frame"] };
+  const table = {...source.table, ...vertices.table, frame: ["uniform", "Frame"]};
   if (hasNormals) table.normals = ["read", "f32"];
-  if (hasCopies) Object.assign(table, { copies: ["read", "u32"], vertex_of: ["read", "u32"] });
+  if (hasCopies) Object.assign(table, {copies: ["read", "u32"], vertex_of: ["read", "u32"]});
   const blocks = positions === "blocks" ? `const LR_VERTEX_COMPONENTS = 3u;\n${includes.lacedring_vertices}` : "";
   return {
     table,
     code: `${FRAME}${source.code}${blocks}${vertices.code}
-fn normal(c: u32) -> vec3f { return ${hasNormals ? "vec3f(normals[3u * c], normals[3u * c + 1u], normals[3u * c + 2u])" : "vec3f(0.0)"}; }
+fn normal(c: u32) -> vec3f { return ${
+      hasNormals ? "vec3f(normals[3u * c], normals[3u * c + 1u], normals[3u * c + 2u])" : "vec3f(0.0)"}; }
 fn copy_of(i: u32, v: u32) -> u32 { return ${hasCopies ? "copies[i]" : "v"}; }
 fn vertex_of_copy(c: u32) -> u32 { return ${hasCopies ? "vertex_of[c]" : "c"}; }
 ${SURFACE}`,
   };
 }
 
-/** Draws silhouettes, borders and creases, found by LR tables. Two vertices per corner: the ends of the edge opposite it. */
+/**
+ * Draws silhouettes, borders and creases, found by LR tables. Two vertices per corner: the ends of the edge opposite
+ * it.
+ */
 export function outlineShader(includes, positions) {
   const vertices = POSITIONS[positions];
   const blocks = positions === "blocks" ? `const LR_VERTEX_COMPONENTS = 3u;\n${includes.lacedring_vertices}` : "";
   return {
-    table: { ...STREAM, ...vertices.table, frame: ["uniform", "Frame"] },
+    table: {...STREAM, ...vertices.table, frame: ["uniform", "Frame"]},
     code: `${FRAME}${includes.lacedring_operators}${EDGES.lr}${blocks}${vertices.code}
 struct Line { @builtin(position) clip: vec4f, @location(0) @interpolate(flat) is_border: u32 }
 @vertex fn vertex(@builtin(vertex_index) i: u32) -> Line {

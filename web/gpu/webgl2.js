@@ -1,8 +1,8 @@
 // The WebGL2 page: opens files and draws them from the stream.
-import { Orbit } from "./camera.js";
-import { Gl2Mesh, loadGlsl } from "./gl2.js";
-import { readLr } from "./lr-file.js";
-import { element, listenForFiles, showError, showTable, sizeOf } from "./page.js";
+import {Orbit} from "./camera.js";
+import {Gl2Mesh, loadGlsl} from "./gl2.js";
+import {readLr} from "./lr-file.js";
+import {element, listenForFiles, showError, showTable, sizeOf} from "./page.js";
 
 const canvas = element("picture"), grouped = (n) => n.toLocaleString("en-US");
 let gl, glsl, mesh, camera, asked = false;
@@ -19,14 +19,16 @@ function changed() {
 
 function open(bytes, name) {
   showError();
-  const next = new Gl2Mesh(gl, readLr(bytes), glsl), { file } = next;
+  const next = new Gl2Mesh(gl, readLr(bytes), glsl), {file} = next;
   mesh?.destroy();
   mesh = next;
   camera.bounds = mesh.bounds;
   element("hint").hidden = true;
   const sum = mesh.stream.bytes + mesh.positions.bytes;
-  showTable([["connectivity, a texture", mesh.stream.bytes, ""], ["positions, a texture of floats", mesh.positions.bytes, ""], ["total for this picture", sum, "sum"],
-    ["uncompressed buffers", 12 * (file.triangles + file.vertices), ""]]);
+  showTable([
+    ["connectivity, a texture", mesh.stream.bytes, ""], ["positions, a texture of floats", mesh.positions.bytes, ""],
+    ["total for this picture", sum, "sum"], ["uncompressed buffers", 12 * (file.triangles + file.vertices), ""]
+  ]);
   element("status").textContent = `${name}: ${file.kind}, ${grouped(file.triangles)} triangles`;
   changed();
 }
@@ -35,7 +37,7 @@ async function start() {
   gl = canvas.getContext("webgl2");
   if (!gl) throw new Error("This browser has no WebGL2.");
   glsl = await loadGlsl();
-  camera = new Orbit({ center: [0, 0, 0], radius: 1 });
+  camera = new Orbit({center: [0, 0, 0], radius: 1});
   camera.listen(canvas, changed);
   new ResizeObserver(() => {
     Object.assign(canvas, sizeOf(canvas));

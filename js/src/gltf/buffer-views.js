@@ -1,6 +1,6 @@
-import { extensionOf, listOf, numberBelow, refuse } from "./document.js";
-import { decodeFloats } from "./floats.js";
-import { inflate } from "./inflate.js";
+import {extensionOf, listOf, numberBelow, refuse} from "./document.js";
+import {decodeFloats} from "./floats.js";
+import {inflate} from "./inflate.js";
 
 /** The buffer views of a document, and the bytes of its buffers. */
 export class BufferViews {
@@ -31,7 +31,7 @@ export class BufferViews {
         refuse(`buffer ${i} is no placeholder, or one with bytes`);
       }
     });
-    this.list.forEach(({ buffer, byteOffset = 0, byteLength }, i) => {
+    this.list.forEach(({buffer, byteOffset = 0, byteLength}, i) => {
       numberBelow(this.#buffers.length, buffer, `the buffer of buffer view ${i}`);
       numberBelow(2 ** 53, byteOffset, `byteOffset of buffer view ${i}`);
       numberBelow(2 ** 53, byteLength, `byteLength of buffer view ${i}`);
@@ -62,7 +62,7 @@ export class BufferViews {
     return this.#loaded[buffer] ??= this.#loadBuffer(buffer);
   }
 
-  async #range({ buffer, byteOffset = 0, byteLength }, what) {
+  async #range({buffer, byteOffset = 0, byteLength}, what) {
     const bytes = await this.#open(numberBelow(this.#buffers.length, buffer, `the buffer of ${what}`));
     numberBelow(bytes.length + 1, byteOffset, `byteOffset of ${what}`);
     numberBelow(bytes.length - byteOffset + 1, byteLength, `byteLength of ${what}`);
@@ -80,7 +80,7 @@ export class BufferViews {
   async decoded(view) {
     const extension = extensionOf(this.list[view]), size = this.list[view].byteLength;
     const bytes = await this.#range(extension, `the coding of buffer view ${view}`);
-    const decode = { __proto__: null, deflate: inflate, floats: decodeFloats }[extension.coding];
+    const decode = {__proto__: null, deflate: inflate, floats: decodeFloats}[extension.coding];
     if (!decode) refuse(`buffer view ${view} has an unknown coding`);
     const out = await decode(bytes, size);
     if (out.length !== size) refuse(`buffer view ${view} has ${out.length} bytes decoded, not ${size}`);

@@ -1,4 +1,5 @@
-// Access to the JSON of a glTF file and to the extension's objects in it. Values come from JSON.parse and are untrusted.
+// Access to the JSON of a glTF file and to the extension's objects in it. Values come from JSON.parse and are
+// untrusted.
 
 export const EXTENSION = "LACEDRING_mesh_compression";
 

@@ -1,5 +1,5 @@
-import { refuse } from "./document.js";
-import { inflate } from "./inflate.js";
+import {refuse} from "./document.js";
+import {inflate} from "./inflate.js";
 
 const QUATERNIONS = 0x80, MOST_WIDTH = 16;
 
@@ -62,8 +62,10 @@ export async function decodeFloats(coded, size) {
   const header = new DataView(coded.buffer, coded.byteOffset, 8);
   const head = header.getUint32(0, true), packed = header.getUint32(4, true), width = head & 0x7f;
   const hasRest = (head & QUATERNIONS) !== 0;
-  if (head > 0xff || width < 1 || width > MOST_WIDTH || (hasRest && width !== 4) || size % (4 * width) !== 0 ||
-      packed > coded.length - 8) refuse("floats: a damaged header");
+  if (
+    head > 0xff || width < 1 || width > MOST_WIDTH || (hasRest && width !== 4) || size % (4 * width) !== 0 ||
+    packed > coded.length - 8)
+    refuse("floats: a damaged header");
   const rows = size / (4 * width), base = hasRest ? rows : 0;
   const lengths = await inflate(coded.subarray(8, 8 + packed), base + rows * width);
   if (lengths.length !== base + rows * width) refuse("floats: not a length for each float");

@@ -1,4 +1,4 @@
-import { refuse } from "./document.js";
+import {refuse} from "./document.js";
 
 // Bytes written to the decoder at once. They may decode to 1000 times their size before the size can be checked.
 const PIECE = 16384;
@@ -15,13 +15,13 @@ async function write(bytes, writer) {
  * @returns {Promise<Uint8Array>} Rejects with an Error of one line if the stream is damaged or decodes to more bytes.
  */
 export async function inflate(bytes, most) {
-  const { readable, writable } = new DecompressionStream("deflate");
+  const {readable, writable} = new DecompressionStream("deflate");
   const reader = readable.getReader();
   write(bytes, writable.getWriter()).catch(() => {});  // the reader sees the same error
   const chunks = [];
   let size = 0;
   for (;;) {
-    const { done, value } = await reader.read().catch(() => refuse("a damaged zlib stream"));
+    const {done, value} = await reader.read().catch(() => refuse("a damaged zlib stream"));
     if (done) break;
     size += value.length;
     if (size > most) {

@@ -1,4 +1,4 @@
-import type { Mesh, Options } from "../lacedring.js";
+import type {Mesh, Options} from "../lacedring.js";
 
 export const EXTENSION: "LACEDRING_mesh_compression";
 
@@ -12,11 +12,14 @@ export interface UnpackOptions {
 export type LoadBuffer = (buffer: number, uri: string) => Promise<Uint8Array>;
 
 /** Splits a .glb or .gltf file into the document and the binary chunk (.glb only). */
-export function splitGltf(bytes: Uint8Array): { json: object; binaryChunk?: Uint8Array };
+export function splitGltf(bytes: Uint8Array): {json: object; binaryChunk?: Uint8Array};
 
-/** Turns `json` into plain glTF, in place. `views`: bytes of buffer views, undefined for views that still use their buffer. */
+/**
+ * Turns `json` into plain glTF, in place. `views`: bytes of buffer views, undefined for views that still use their
+ * buffer.
+ */
 export function unpackGltf(json: object, binaryChunk?: Uint8Array, loadBuffer?: LoadBuffer, options?: UnpackOptions):
-  Promise<{ json: object; views: (Uint8Array | undefined)[] }>;
+  Promise<{json: object; views: (Uint8Array | undefined)[]}>;
 
 /** Converts a .glb or .gltf file to a plain GLB. */
 export function unpackGlb(bytes: Uint8Array, loadBuffer?: LoadBuffer, options?: UnpackOptions): Promise<Uint8Array>;

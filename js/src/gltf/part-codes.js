@@ -1,4 +1,4 @@
-import { refuse } from "./document.js";
+import {refuse} from "./document.js";
 
 const RECENT = 64;  // length of the list of recently used parts
 
@@ -52,6 +52,7 @@ export function decodePartCodes(runs, triangles, parts) {
     if (run > triangles - count) refuse("part codes: more triangles than the stream has");
     out.fill(part, count, count += run);
   }
-  if (count !== triangles || seen.size !== parts) refuse("part codes: not a part for each triangle, or parts without triangles");
+  if (count !== triangles || seen.size !== parts)
+    refuse("part codes: not a part for each triangle, or parts without triangles");
   return out;
 }

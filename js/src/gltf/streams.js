@@ -1,4 +1,4 @@
-import { extensionOf, listOf, numberBelow, objectOf, refuse } from "./document.js";
+import {extensionOf, listOf, numberBelow, objectOf, refuse} from "./document.js";
 
 /**
  * A document's description of a stream.
@@ -12,7 +12,7 @@ import { extensionOf, listOf, numberBelow, objectOf, refuse } from "./document.j
 
 /** Reads streams and their sets. Stores {stream, set} of each accessor in the map `setOf`. */
 function readStreams(extension, accessors, setOf) {
-  return listOf(extension, "streams").map(({ bufferView, parts, sets, ordered = false }, stream) => {
+  return listOf(extension, "streams").map(({bufferView, parts, sets, ordered = false}, stream) => {
     if (!Array.isArray(sets) || sets.length === 0 || !sets.every(Array.isArray)) refuse(`stream ${stream} has no sets`);
     if (typeof ordered !== "boolean") refuse(`stream ${stream}: "ordered" is neither true nor false`);
     sets.forEach((numbers, set) => {
@@ -20,16 +20,17 @@ function readStreams(extension, accessors, setOf) {
       for (const accessor of numbers) {
         numberBelow(accessors.length, accessor, `an accessor of stream ${stream}`);
         if (setOf.has(accessor)) refuse(`accessor ${accessor} is in two places of sets`);
-        setOf.set(accessor, { stream, set });
+        setOf.set(accessor, {stream, set});
       }
     });
-    return { view: bufferView, partsView: parts, ordered, sets, parts: [] };
+    return {view: bufferView, partsView: parts, ordered, sets, parts: []};
   });
 }
 
 /** Names and numbers of the accessors of a primitive's attributes and morph targets. */
 function* attributesOf(primitive) {
-  for (const names of [objectOf(primitive, "attributes"), ...listOf(primitive, "targets")]) yield* Object.entries(names);
+  for (const names of [objectOf(primitive, "attributes"), ...listOf(primitive, "targets")])
+    yield* Object.entries(names);
 }
 
 /** Stream and set of a primitive's accessors; undefined if they are in no set. */
@@ -45,8 +46,8 @@ function setOfPrimitive(primitive, setOf) {
  * Reads a document's description of its streams, and checks that it is consistent.
  * @param {object} json the document; the inner document if it is packed
  * @param {boolean} isPacked whether the document is packed: its primitives do not name their part
- * @returns {{streams: Stream[], positions: Set<number>}} `positions`: accessors of POSITION (displacements of morph targets
- *   included)
+ * @returns {{streams: Stream[], positions: Set<number>}} `positions`: accessors of POSITION (displacements of morph
+ *   targets included)
  */
 export function readDocument(json, isPacked) {
   const accessors = listOf(json, "accessors"), setOf = new Map(), positions = new Set();
@@ -54,7 +55,7 @@ export function readDocument(json, isPacked) {
   const partOf = new Map();  // index accessor: {stream, part}
   for (const mesh of listOf(json, "meshes")) {
     for (const primitive of listOf(mesh, "primitives")) {
-      const extension = extensionOf(primitive), { indices, mode = 4 } = primitive;
+      const extension = extensionOf(primitive), {indices, mode = 4} = primitive;
       if (isPacked && extension) refuse("a primitive of a packed document names its part");
       if (isPacked ? mode !== 4 : !extension) continue;
       const of = setOfPrimitive(primitive, setOf);
@@ -62,15 +63,16 @@ export function readDocument(json, isPacked) {
       if (!of || mode !== 4) refuse("a primitive has a part but no set, or is no list of triangles");
       numberBelow(accessors.length, indices, "the index accessor of a part");
       if (setOf.has(indices)) refuse(`accessor ${indices} is in a set, and has indices`);
-      const { parts } = streams[of.stream];
+      const {parts} = streams[of.stream];
       const known = partOf.get(indices);
       const part = isPacked ? known?.part ?? parts.length : extension.part;
       // `parts` may be a sparse array until all primitives are read. Below, part numbers are checked to have no gaps.
       numberBelow(2 ** 31, part, "the number of a part");
-      if ((known ?? of).stream !== of.stream || (known && known.part !== part)) refuse(`accessor ${indices} is of two parts`);
+      if ((known ?? of).stream !== of.stream || (known && known.part !== part))
+        refuse(`accessor ${indices} is of two parts`);
       if (!isPacked && extension.stream !== of.stream) refuse("a primitive names another stream than its attributes'");
-      partOf.set(indices, { stream: of.stream, part });
-      parts[part] ??= { set: of.set, indices };
+      partOf.set(indices, {stream: of.stream, part});
+      parts[part] ??= {set: of.set, indices};
       if (parts[part].set !== of.set || parts[part].indices !== indices) {
         refuse(`part ${part} of stream ${of.stream} has two sets or index accessors`);
       }
@@ -79,9 +81,11 @@ export function readDocument(json, isPacked) {
       }
     }
   }
-  streams.forEach(({ parts, partsView }, i) => {
-    if (parts.length === 0 || Object.keys(parts).length !== parts.length) refuse(`stream ${i} has a part without a primitive`);
-    if ((partsView !== undefined) !== parts.length > 1) refuse(`stream ${i} has part codes for one part, or none for several`);
+  streams.forEach(({parts, partsView}, i) => {
+    if (parts.length === 0 || Object.keys(parts).length !== parts.length)
+      refuse(`stream ${i} has a part without a primitive`);
+    if ((partsView !== undefined) !== parts.length > 1)
+      refuse(`stream ${i} has part codes for one part, or none for several`);
   });
-  return { streams, positions };
+  return {streams, positions};
 }

@@ -1,5 +1,5 @@
-import { EXTENSION } from "../gltf/document.js";
-import { unpackGltf } from "../gltf/unpack.js";
+import {EXTENSION} from "../gltf/document.js";
+import {unpackGltf} from "../gltf/unpack.js";
 
 // GLTFLoader creates its handlers of these extensions from the outer document, before the inner document can be read.
 const HANDLERS = ["KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization"];
@@ -24,8 +24,9 @@ export class LacedRingExtension {
   constructor(parser, options) {
     this.#parser = parser;
     this.#options = options;
-    const { json } = parser;
-    if (this.#isDocumentPacked() && Array.isArray(json.extensionsUsed)) json.extensionsUsed = [...json.extensionsUsed, ...HANDLERS];
+    const {json} = parser;
+    if (this.#isDocumentPacked() && Array.isArray(json.extensionsUsed))
+      json.extensionsUsed = [...json.extensionsUsed, ...HANDLERS];
   }
 
   #isDocumentPacked() {
@@ -33,12 +34,12 @@ export class LacedRingExtension {
   }
 
   beforeRoot() {
-    const { extensionsUsed } = this.#parser.json;
+    const {extensionsUsed} = this.#parser.json;
     return Array.isArray(extensionsUsed) && extensionsUsed.includes(EXTENSION) ? this.#unpack() : null;
   }
 
   async #unpack() {
-    const parser = this.#parser, { json } = parser, isPacked = this.#isDocumentPacked();
+    const parser = this.#parser, {json} = parser, isPacked = this.#isDocumentPacked();
     const binary = parser.extensions.KHR_binary_glTF?.body;
     const load = async (buffer) => new Uint8Array(await parser.getDependency("buffer", buffer));
     this.#views = (await unpackGltf(json, binary && new Uint8Array(binary), load, this.#options)).views;
@@ -52,7 +53,8 @@ export class LacedRingExtension {
   loadBufferView(index) {
     const bytes = this.#views[index];
     if (!bytes) return null;
-    const { buffer, byteOffset, byteLength } = bytes;
-    return Promise.resolve(byteLength === buffer.byteLength ? buffer : buffer.slice(byteOffset, byteOffset + byteLength));
+    const {buffer, byteOffset, byteLength} = bytes;
+    return Promise.resolve(
+      byteLength === buffer.byteLength ? buffer : buffer.slice(byteOffset, byteOffset + byteLength));
   }
 }

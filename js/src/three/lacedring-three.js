@@ -1,3 +1,3 @@
 // For three.js: a plug-in for GLTFLoader, and a loader for .lr files.
-export { LacedRingExtension } from "./extension.js";
-export { LacedRingLoader, geometryOf } from "./loader.js";
+export {LacedRingExtension} from "./extension.js";
+export {geometryOf, LacedRingLoader} from "./loader.js";
