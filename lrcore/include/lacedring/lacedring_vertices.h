@@ -330,6 +330,26 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_run_(const struct lacedring_data_* d, c
     return bad;
 }
 
+/* Reads the code of a component's width for a run: *bits is the width of the run before, and becomes that of this run.
+   *window has the bits from *at on, of which *used are read. Returns 0 if all residuals of the run are 0. *bad becomes
+   nonzero if the width is invalid. */
+LACEDRING_HOT_ uint32_t lacedring_next_width_(const struct lacedring_data_* d, uint64_t* at, uint64_t* window,
+                                              uint32_t* used, uint32_t* bits, uint32_t* bad) {
+    uint64_t code;
+    uint32_t ones;
+    if (*used > 57 - 9) { /* a code has at most 9 bits */
+        *at += *used;
+        *window = lacedring_data_at_(d, *at);
+        *used = 0;
+    }
+    code = *window >> *used;
+    ones = lacedring_zeros_(~code | 16); /* 0: same width, 1: all 0, 2: one more, 3: one less, 4: given */
+    *used += ones < 4 ? ones + 1 : 9;
+    *bad |= (ones == 2 && *bits == 31) || (ones == 3 && *bits == 0);
+    *bits = ones == 4 ? (uint32_t)(code >> 4) & 31 : (*bits + (ones == 2) - (ones == 3)) & 31;
+    return ones != 1;
+}
+
 /* Decodes a block of `count` vertices that begins at bit *at; sets *at to its end. Returns nonzero if the block is
    invalid. */
 LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices* s, const struct lacedring_data_* d,
@@ -373,20 +393,9 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_(const struct lacedring_vertices*
         }
         run.zero = 0;
         for (c = 0; c < n; ++c) {
-            uint64_t code;
-            uint32_t ones;
-            if (used > 57 - 9) {
-                *at += used;
-                window = lacedring_data_at_(d, *at);
-                used = 0;
-            }
-            code = window >> used;
-            ones = lacedring_zeros_(~code | 16); /* 0: same width, 1: all 0, 2: one more, 3: one less, 4: given */
-            used += ones < 4 ? ones + 1 : 9;
-            bad |= (ones == 2 && bits[c] == 31) || (ones == 3 && bits[c] == 0);
-            bits[c] = ones == 4 ? (uint32_t)(code >> 4) & 31 : (bits[c] + (ones == 2) - (ones == 3)) & 31;
-            run.zero |= (uint32_t)(ones == 1) << c;
-            run.low_bits[c] = ones == 1 ? 0 : bits[c];
+            const uint32_t is_present = lacedring_next_width_(d, at, &window, &used, bits + c, &bad);
+            run.zero |= (1 - is_present) << c;
+            run.low_bits[c] = is_present ? bits[c] : 0;
         }
         *at += used;
         bad |= lacedring_vertex_run_(d, &run, path, n, here, at, out + (size_t)i * n);
@@ -502,20 +511,9 @@ LACEDRING_HOT_ uint32_t lacedring_vertex_block_4_(const struct lacedring_vertice
         }
         run.present = 0;
         LACEDRING_EACH_ for (c = 0; c < n; ++c) {
-            uint64_t code;
-            uint32_t ones;
-            if (used > 57 - 9) {
-                *at += used;
-                window = lacedring_data_at_(d, *at);
-                used = 0;
-            }
-            code = window >> used;
-            ones = lacedring_zeros_(~code | 16); /* 0: same width, 1: all 0, 2: one more, 3: one less, 4: given */
-            used += ones < 4 ? ones + 1 : 9;
-            bad |= (ones == 2 && bits[c] == 31) || (ones == 3 && bits[c] == 0);
-            bits[c] = ones == 4 ? (uint32_t)(code >> 4) & 31 : (bits[c] + (ones == 2) - (ones == 3)) & 31;
-            run.present |= (uint32_t)(ones != 1) << c;
-            run.width[c] = ones == 1 ? 0 : bits[c];
+            const uint32_t is_present = lacedring_next_width_(d, at, &window, &used, bits + c, &bad);
+            run.present |= is_present << c;
+            run.width[c] = is_present ? bits[c] : 0;
             run.mask[c] = (1u << run.width[c]) - 1;
             row += run.width[c];
             if (UINT32_MAX >> run.width[c] < most) most = UINT32_MAX >> run.width[c];
