@@ -33,7 +33,7 @@ struct ResidentFigures {
     };
     struct Structure {
         std::string name;
-        std::size_t bytes = 0;  ///< of its file
+        std::size_t bytes = 0;  ///< size of its file
         bool direct = true;     ///< reads reach the disk (PagedFile::direct)
     };
     struct Level {

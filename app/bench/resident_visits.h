@@ -54,7 +54,7 @@ struct Visits {
     std::vector<std::uint32_t> valence;
     std::vector<float> normal;  ///< z of the normal, not normalized
     std::vector<Contour> contours;
-    std::uint64_t vertex_sum = 0, step_sum = 0, valence_sum = 0, up = 0;  ///< of the whole mesh
+    std::uint64_t vertex_sum = 0, step_sum = 0, valence_sum = 0, up = 0;  ///< over all elements of the mesh
     std::size_t corner_count = 0, vertex_count = 0, contour_triangles = 0;
 };
 

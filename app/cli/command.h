@@ -35,7 +35,7 @@ struct RingChoice {
     std::uint64_t random_seed = 1;
     /// EncodeOptions::effort; decides the options that are not given.
     std::uint32_t effort = EncodeOptions{}.effort;
-    std::uint32_t threads = 0;      ///< at most; 0: all of the machine
+    std::uint32_t threads = 0;      ///< most threads; 0: all of the machine
     std::string optimize = "auto";  ///< passes of the ring optimizer, or "auto"
 };
 /// A check for CLI11, which would read -1 as 2^64 - 1: returns an error for a number with a minus sign, else "".

@@ -56,7 +56,7 @@ struct DrawnScene {
     std::size_t primitives = 0;  ///< 0: the file has a single primitive
     std::size_t placed = 0;      ///< primitives, counted once per node
     std::size_t mirrored = 0;    ///< placed ones whose node mirrors them
-    std::size_t triangles = 0;   ///< of all placed primitives
+    std::size_t triangles = 0;   ///< in all placed primitives
     /// How the drawn mesh differs; empty: it does not.
     std::string why;
 };
@@ -66,7 +66,7 @@ DrawnScene check_scene(const LoadedScene& scene, double tolerance) {
     DrawnScene out;
     out.primitives = scene.primitives.size();
     if (out.primitives == 0) return out;
-    std::vector<std::size_t> mirrored(scene.primitives.back().mesh + 1);  // placements of each mesh
+    std::vector<std::size_t> mirrored(scene.primitives.back().mesh + 1);  // mirroring placements of each mesh
     for (const PlacedMesh& placed : scene.placed) {
         if (placed.mesh < mirrored.size() && mirrors(placed.placement)) ++mirrored[placed.mesh];
     }

@@ -20,7 +20,7 @@ struct PlacedDifference {
 /// Cost: O(joined mesh).
 PlacedDifference check_placed(const LoadedScene& scene, double tolerance);
 
-/// Triangles of all primitives, each counted once.
+/// Number of triangles of all primitives; each primitive counts once.
 std::size_t count_triangles(const LoadedScene& scene);
 
 /// Makes a lossless .lr file of the mesh, reads it, and returns the first difference; empty: none. `threads`: 0 for all

@@ -18,7 +18,7 @@ std::string period_title(std::uint32_t k) {
 
 /// One column of the histograms, which is one row of their table.
 struct Bin {
-    std::string label;  ///< under the column
+    std::string label;  ///< text under the column
     std::string title;
     std::function<std::uint32_t(const OffsetCounts&)> count;
 };

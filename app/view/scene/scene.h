@@ -133,7 +133,7 @@ class Scene {
     std::optional<gpu::Transfer> transfer_;
     std::unique_ptr<gpu::Expander> expander_;  // must not move: the uploader refers to it
     gpu::Layout layout_;
-    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> compose_;  // by specialization constants
+    std::map<std::array<std::uint32_t, 3>, gpu::PipelineHandle> compose_;  // by its specialization constants
     gpu::QueryPoolHandle queries_;
     bool timed_ = false;
 
@@ -150,7 +150,7 @@ class Scene {
     /// The pictures of one number of samples.
     struct Sides {
         std::optional<gpu::Target> targets[2];
-        VkDescriptorSet sets[2] = {};  ///< for composing one picture, and two
+        VkDescriptorSet sets[2] = {};  ///< for composing one picture; two
     };
     std::map<std::uint32_t, Sides> sides_;
     gpu::Image composed_;

@@ -66,7 +66,7 @@ struct Document {
     bool optimised = false;
     /// If this is a coarse stand-in: the triangles of the mesh that is being loaded; else 0.
     std::size_t stand_in = 0;
-    TopologyReport report;  ///< set when `optimised`
+    TopologyReport report;  ///< set if `optimised`
     StreamFigures plain, lean, packed;
     std::chrono::steady_clock::time_point asked;  ///< when the file or the ring was requested
     double seconds = 0;                           ///< from the request until this was made

@@ -44,7 +44,7 @@ class Loader {
         std::shared_ptr<const Document> document;
         std::shared_ptr<const Tables> tables;
         std::shared_ptr<const app::FormatSet> formats;
-        std::optional<std::vector<std::string>> files;  ///< of the folder listed last
+        std::optional<std::vector<std::string>> files;  ///< meshes in the folder listed last
         std::optional<std::string> error;               ///< one line, with the file's name
     };
     News take();

@@ -1,5 +1,5 @@
 #pragma once
-// Threads that may outlive the program's end: one may be reading from a dead network disk.
+// Threads that the program does not wait for when it ends: one may be reading from a dead network disk.
 
 #include <atomic>
 #include <chrono>

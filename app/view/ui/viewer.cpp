@@ -586,7 +586,7 @@ Result<void> Viewer::frame(double seconds) {
     }
     act();
     if (visible()) {
-        LR_TRY(resize());  // choices may have changed
+        LR_TRY(resize());  // act() may have changed choices
         LR_TRY(draw());
         LR_TRY(compare());
     }

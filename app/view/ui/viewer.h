@@ -21,7 +21,7 @@ namespace lacedring::view {
 
 struct ViewerOptions {
     Input input;                ///< path may be empty
-    gpu::CameraOptions camera;  ///< for the first mesh
+    gpu::CameraOptions camera;  ///< used for the first mesh only
     double scale = 1;           ///< pixels per nominal pixel
     bool panels = true;
     std::uint32_t frame_cap = 60;  ///< frames per second; 0: no limit
