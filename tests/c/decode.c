@@ -1,12 +1,12 @@
-/* Decodes lean and packed streams from standard input: for each, how many words it has, then the words. One line each:
-   its triangles, or "no" and what is wrong. */
+/* Decodes lean and packed streams from standard input, each preceded by its number of words. Prints a line for each:
+   its triangles, or "no" and the fault. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "lacedring_decode.h"
 
-/* Of either kind of stream, what this program asks. */
+/* A stream of either format. */
 struct stream {
     int packed;
     struct lacedring_lean lean_view;
@@ -40,7 +40,7 @@ static int same_in_16_bits(const struct stream* s, const uint32_t* indices) {
     return same;
 }
 
-/* All at once and one by one are the same. */
+/* Whether triangles decoded one by one equal those decoded at once. */
 static int same_one_by_one(const struct stream* s, const uint32_t* triangles) {
     const uint32_t slots = s->packed ? s->triangles : lacedring_lean_slots(&s->lean_view);
     uint32_t *all = malloc(12 * (size_t)slots + 1), slot, t[3];
@@ -59,7 +59,7 @@ static int same_one_by_one(const struct stream* s, const uint32_t* triangles) {
     return same;
 }
 
-/* Every block alone is what all at once has there, and nothing beside it is written. */
+/* Whether each block decodes to the same triangles, and writes nothing beside them. */
 static int same_by_blocks(const struct stream* s, const uint32_t* triangles) {
     uint32_t block, i;
     int same = 1;

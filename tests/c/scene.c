@@ -1,4 +1,4 @@
-/* scene.h: scene PACKED.glb PLAIN.glb, of which the second is what `lacedring unpack` makes of the first. */
+/* Tests scene.h: scene PACKED.glb PLAIN.glb, where PLAIN.glb was written by `lacedring unpack PACKED.glb`. */
 #include "lacedring/scene.h"
 
 #include <stdio.h>
@@ -34,7 +34,7 @@ static void check_good(const unsigned char* packed, size_t packed_size, const un
     EXPECT(lacedring_unpack_scene(packed, packed_size, 0, &glb, &size, &message) == LACEDRING_CODE_OK);
     EXPECT(message.text[0] == 0);
     EXPECT(size == plain_size && glb != NULL && memcmp(glb, plain, size) == 0);
-    /* What is not packed is given back, its buffer views in their own order. */
+    /* A scene that is not packed is returned with its buffer views in order. */
     EXPECT(lacedring_unpack_scene(glb, size, 0, &again, &again_size, NULL) == LACEDRING_CODE_OK);
     EXPECT(again != NULL && lacedring_is_packed_scene(again, again_size) == 0);
     lacedring_free(glb);
@@ -42,7 +42,7 @@ static void check_good(const unsigned char* packed, size_t packed_size, const un
     lacedring_free(NULL);
 }
 
-/* Every error leaves nothing to free. */
+/* Errors set the results to null. */
 static void check_error(enum lacedring_code wanted, const void* bytes, size_t size, uint64_t max_bytes) {
     unsigned char* glb = (unsigned char*)&failures;
     size_t glb_size = 1;

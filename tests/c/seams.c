@@ -1,4 +1,5 @@
-/* Decodes what tests/independent/write_seams.cpp writes, with lacedring_seams.h alone: exit 1 where it differs. */
+/* Decodes the sections of tests/independent/write_seams.cpp with lacedring_seams.h alone. Exit code 1: copies differ.
+ */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>

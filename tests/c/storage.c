@@ -1,6 +1,5 @@
-/* Prints an .lr file in storage form (docs/lr-file.md) as OBJ: what lacedring encode --storage MESH -o FILE.lr writes.
-   Attributes have their names and sums in comments; each corner names its vertex and, of texture coordinates and
-   normals, its vertex or copy. */
+/* Prints an .lr file in storage form (docs/lr-file.md) as OBJ. Comments have the name and a checksum of each attribute.
+   A corner has the number of its vertex, and the vertex or copy of its texture coordinate and normal. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +10,15 @@
 enum { HEADER_WORDS = 8, SECTION_WORDS = 8, PACKED = 7, VERTICES = 8, SEAMS = 9, STORED = 1 };
 enum { V_AT_LOWER_EDGE = 1 << 17, OF_COPIES = 1 << 18 }; /* flags of attributes */
 
-/* The mesh so far: file_words[3] vertices, file_words[5] copies. */
+/* The sections decoded so far. The mesh has file_words[3] vertices and file_words[5] copies. */
 struct mesh {
-    uint32_t *triangles, *corners; /* three vertices each, and three copies; corners: null without seams */
+    uint32_t* triangles; /* three vertices each */
+    uint32_t* corners;   /* three copies per triangle; null without seams */
     uint32_t triangle_count;
-    uint32_t *vertex_of, *positions;   /* the vertex of each copy; integers that predict */
-    const uint32_t *texcoord, *normal; /* triangles or corners: what they are numbered by; null: there are none */
+    uint32_t* vertex_of; /* by copy */
+    uint32_t* positions; /* integers for predictions */
+    /* triangles or corners, by which the attribute is numbered; null without the attribute */
+    const uint32_t *texcoord, *normal;
 };
 
 static uint32_t* file_words;
@@ -27,7 +29,7 @@ static int fail(const char* what, unsigned status, uint64_t where) {
     return 1;
 }
 
-/* The words of a section; null: it lies beyond the file. */
+/* The words of a section; null if it is beyond the file. */
 static const uint32_t* contents_of(const uint32_t* section, size_t* count) {
     const size_t first = section[2] / 4;
     *count = (section[4] + 3) / 4;
@@ -35,7 +37,7 @@ static const uint32_t* contents_of(const uint32_t* section, size_t* count) {
     return file_words + first;
 }
 
-/* Prints the values of an attribute that OBJ has. */
+/* Prints an attribute that OBJ has. */
 static void print_values(const char* as, const uint8_t* values, size_t size, uint32_t components, int turns_v) {
     size_t i;
     uint32_t c;
@@ -54,7 +56,7 @@ static int is_name(const uint32_t* words, uint32_t bytes, const char* name) {
     return bytes == strlen(name) && memcmp(words, name, bytes) == 0;
 }
 
-/* An attribute: as its stream has it, and as integers and values. */
+/* An attribute: the header of its stream, its integers and values. */
 struct attribute {
     struct lacedring_vertices stream;
     uint32_t* integers;

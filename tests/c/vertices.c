@@ -1,5 +1,5 @@
-/* Decodes vertex streams from standard input: for each, how many words it has, then the words. One line each: a sum of
-   the decoded bytes, or "no", what is wrong and where. */
+/* Decodes vertex streams from standard input, each preceded by its number of words. Prints a line for each: a checksum
+   of the decoded bytes, or "no", the fault and its place. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ static size_t bytes_of(const struct lacedring_vertices* s) {
     return (size_t)s->vertices * lacedring_vertices_values(s) * sizes[s->type];
 }
 
-/* All blocks at once and one by one are the same. */
+/* Whether blocks decoded one by one equal those decoded at once. */
 static int same_by_blocks(const struct lacedring_vertices* s) {
     const uint32_t blocks = (s->vertices + LACEDRING_VERTICES_BLOCK - 1) / LACEDRING_VERTICES_BLOCK;
     const size_t size = (size_t)4 * s->vertices * s->components;

@@ -1,4 +1,4 @@
-"""What the command-line tests share: running the program in a folder of its own, and what may be expected of it."""
+"""Runs the program in a temporary folder and checks its output; shared by the command-line tests."""
 
 import json
 import os
@@ -15,7 +15,8 @@ sys.path.insert(0, INDEPENDENT)
 DONE, CHECK_FAILED, WRONG_USAGE, BAD_INPUT, NO_DEVICE = range(5)
 KINDS = ["sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup"]
 
-SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"  # ten times slower, and takes memory of its own
+# A sanitized program is ten times slower and takes more memory.
+SANITIZED = os.environ.get("LACEDRING_SANITIZED", "0") == "1"
 
 program = None  # path of lacedring
 
@@ -36,13 +37,13 @@ def run(*arguments, timeout=120, preexec_fn=None):
 
 
 def in_parallel(function, items):
-    """Calls function(item) for all items; the first exception is raised here."""
+    """Calls function(item) for all items in threads, and raises the first exception."""
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         return list(pool.map(function, items))
 
 
 def files_below(folder):
-    """Every file with its bytes: what a command may not change where it fails."""
+    """{path: bytes} of all files of a folder; a failing command may not change them."""
     out = {}
     for at, folders, names in os.walk(folder):
         for name in folders:
@@ -61,7 +62,7 @@ class CliTest(unittest.TestCase):
         cls.help = run("--help").out
 
     def setUp(self):
-        # No "-" before what tempfile makes up: it would turn "0" into the "-0" that a test says is in no message.
+        # The prefix does not end in "-": a random name "0..." would become "-0", which a test searches in messages.
         self._folder = tempfile.TemporaryDirectory(prefix="lacedring_cli_")
         self.folder = self._folder.name
 
@@ -85,7 +86,7 @@ class CliTest(unittest.TestCase):
         return outcome
 
     def json(self, *arguments, code=DONE):
-        """The command's one document. json.loads refuses anything before or behind it."""
+        """Returns the JSON document of a command, which must print nothing else."""
         outcome = self.ok(*arguments, code=code)
         try:
             document = json.loads(outcome.out, parse_constant=lambda c: self.fail(f"{c} is no JSON: {outcome}"))
@@ -111,7 +112,7 @@ class CliTest(unittest.TestCase):
         return outcome
 
     def same_triangles(self, source, *targets, options=()):
-        """By the independent checker. Targets ending in .lr are decoded by it, too: resident() makes them."""
+        """Compares the triangles with tests/independent/check_decode.py, which also decodes targets ending in .lr (resident())."""
         script = os.path.join(INDEPENDENT, "check_decode.py")
         for target in targets:
             option = ["--lr", target] if target.endswith(".lr") else [target]
@@ -119,7 +120,7 @@ class CliTest(unittest.TestCase):
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
     def resident(self, source, *options):
-        """The path of an .lr file without vertex streams in storage form, which the independent checker does not read."""
+        """Encodes to an .lr file without storage form, which the independent checker reads, and returns its path."""
         path = self.path(os.path.basename(source) + "-resident.lr")
         self.ok("encode", source, "-o", path, "--resident", *options)
         return path
@@ -134,6 +135,6 @@ def main():
     global program
     if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
         sys.exit(f"usage: {sys.argv[0]} LACEDRING [unittest options]")
-    # The test modules import this one by name, while __main__ is the test: set it where they look.
+    # Tests import this module by name, so `program` is set in that module.
     sys.modules["cli_support"].program = os.path.abspath(sys.argv.pop(1))
     unittest.main(module="__main__", verbosity=2)

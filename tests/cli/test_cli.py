@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_cli.py LACEDRING: what the commands do with good input. The contract is in docs/command-line.md."""
+"""test_cli.py LACEDRING: the commands with valid input, as docs/command-line.md describes them."""
 
 import json
 import os
@@ -128,11 +128,11 @@ class RoundTrip(CliTest):
 
         forms = [("lr",), ("lr", "--ring", "hybrid", "--k", "40"), ("lr-compact", "--k", "40"), ("lr-compact",), ("packed",),
                  ("packed", "--ring", "expander"), ("packed", "--profile", "cache"), ("packed", "--profile", "cache", "--optimize", "2")]
-        # Each form with three kinds of mesh, each kind with three forms: the unit tests have all of both.
+        # Each form with three kinds of mesh and each kind with three forms. The unit tests combine all.
         in_parallel(check, [(k, *f) for i, k in enumerate(KINDS) for j, f in enumerate(forms) if (i + j) % len(KINDS) < 3])
 
     def test_threads(self):
-        """The bytes are the same for any number; only commands that have a use for it take it."""
+        """Files are the same for any number of threads; commands without threads refuse the option."""
         source, files = self.generate("blob", 3000, 1), []
         for threads in ("1", "3"):
             out = self.path(f"{threads}.lr")
@@ -207,7 +207,7 @@ class RoundTrip(CliTest):
             self.assertGreaterEqual(self.json("info", self.write(name, data), "--json")["triangles"], 4)
 
     def test_weld(self):
-        # Three vertices a triangle, as an exporter without shared vertices writes them.
+        # Three vertices per triangle, as exporters without shared vertices write.
         points = [POINTS[v] for t in TRIANGLES for v in t]
         source = self.write("a.ply", write.ply(points, [(i, i + 1, i + 2) for i in range(0, len(points), 3)]))
         self.assertEqual(self.json("info", source, "--no-weld", "--json")["components"], 4)
@@ -220,62 +220,76 @@ class RoundTrip(CliTest):
 
 
 class Json(CliTest):
-    def check_stats(self, mesh):
+    def check_counts(self, mesh):
         for key in ("triangles", "vertices", "components", "border_edges", "border_loops", "nonmanifold_edges",
                     "degenerate_dropped"):
             self.assertIsInstance(mesh[key], int, key)
-            self.assertGreaterEqual(mesh[key], 0)
+            self.assertGreaterEqual(mesh[key], 0, key)
         self.assertIsInstance(mesh["file"], str)
         self.assertIsInstance(mesh["valence6_percent"], NUMBER)
         for key in ("ring_vertices", "isolated", "t0", "t0_wart", "t2", "irregular"):
             self.assertIsInstance(mesh["ring"][key], int, key)
+
+    def check_format_names(self, mesh):
+        absent = mesh.get("absent", {})
         for name in ("index_u32", "strip_restart", "strip_degenerate", "lean", "lean_no_warts"):
             self.assertIn(name, mesh["formats"])
-        absent = mesh.get("absent", {})
-        encoded = mesh["triangles"] - mesh["degenerate_dropped"]
         for name in list(mesh["formats"]) + list(absent):
             self.assertIn(name, FORMATS)
         for name, reason in absent.items():
             self.assertNotIn(name, mesh["formats"])
-            self.assertTrue(reason)
+            self.assertTrue(reason, f"absent without a reason: {name}")
+
+    def check_format(self, name, entry, encoded):
+        for key in ("bytes", "bits_per_triangle", "references_per_triangle", "acmr_fifo32", "atvr_fifo32"):
+            self.assertIsInstance(entry[key], NUMBER, f"{name} {key}")
+            self.assertGreaterEqual(entry[key], 0, f"{name} {key}")
+        self.assertIsInstance(entry["bytes"], int, name)
+        self.assertAlmostEqual(entry["bits_per_triangle"], 8 * entry["bytes"] / encoded, places=6, msg=name)
+        if "ring" in entry:
+            self.assertIn(entry["ring"], ("expander", "hybrid", "optimized"), name)
+            self.assertIn("k", entry, name)
+            self.assertIn("passes", entry, name)
+
+    def check_stats(self, mesh):
+        """The keys and types of one mesh's entry, and the sizes that follow from others."""
+        encoded = mesh["triangles"] - mesh["degenerate_dropped"]
+        self.check_counts(mesh)
+        self.check_format_names(mesh)
         for name, entry in mesh["formats"].items():
-            for key in ("bytes", "bits_per_triangle", "references_per_triangle", "acmr_fifo32", "atvr_fifo32"):
-                self.assertIsInstance(entry[key], NUMBER, f"{name} {key}")
-                self.assertGreaterEqual(entry[key], 0, f"{name} {key}")
-            self.assertIsInstance(entry["bytes"], int)
-            self.assertAlmostEqual(entry["bits_per_triangle"], 8 * entry["bytes"] / encoded, places=6)
-            if "ring" in entry:
-                self.assertIn(entry["ring"], ("expander", "hybrid", "optimized"))
-                self.assertIn("k", entry)
-                self.assertIn("passes", entry)
+            self.check_format(name, entry, encoded)
         lean = mesh["formats"]["lean"]
         words = lean["references_per_triangle"] * encoded
-        self.assertAlmostEqual(lean["bytes"], 32 + 4 * words, delta=0.01)
-        self.assertLessEqual(words, 3.05 * mesh["triangles"] + 1)
+        self.assertAlmostEqual(lean["bytes"], 32 + 4 * words, delta=0.01, msg="lean is a header and its references")
+        self.assertLessEqual(words, 3.05 * mesh["triangles"] + 1, "lean has at most three references per triangle")
+
+    def check_closed(self, mesh):
+        """A mesh of one closed manifold component."""
+        self.assertEqual((mesh["components"], mesh["border_edges"], mesh["border_loops"]), (1, 0, 0))
+        self.assertEqual((mesh["nonmanifold_edges"], mesh["degenerate_dropped"]), (0, 0))
+        self.assertEqual(mesh["formats"]["index_u32"]["bytes"], 12 * mesh["triangles"])
+        self.assertEqual(mesh["formats"]["index_u16"]["bytes"], 6 * mesh["triangles"])
+        self.assertAlmostEqual(mesh["formats"]["index_u32"]["references_per_triangle"], 3)
+        self.assertEqual(mesh["ring"]["ring_vertices"] + mesh["ring"]["isolated"], mesh["vertices"])
+        self.assertLess(mesh["formats"]["lean"]["references_per_triangle"], 1.35)
 
     def test_stats(self):
         paths = [self.generate(kind, 1000, 5) for kind in KINDS]
         document = self.json("stats", *paths, "--json")
-        self.assertEqual([mesh["file"] for mesh in document["meshes"]], paths)
+        self.assertEqual([mesh["file"] for mesh in document["meshes"]], paths, "an entry per file, in order")
         for mesh in document["meshes"]:
             with self.subTest(mesh["file"]):
                 self.check_stats(mesh)
         meshes = dict(zip(KINDS, document["meshes"]))
         for kind in ("sphere", "torus", "genus", "blob"):
-            mesh = meshes[kind]
-            self.assertEqual((mesh["components"], mesh["border_edges"], mesh["border_loops"]), (1, 0, 0), kind)
-            self.assertEqual((mesh["nonmanifold_edges"], mesh["degenerate_dropped"]), (0, 0), kind)
-            self.assertEqual(mesh["formats"]["index_u32"]["bytes"], 12 * mesh["triangles"])
-            self.assertEqual(mesh["formats"]["index_u16"]["bytes"], 6 * mesh["triangles"])
-            self.assertAlmostEqual(mesh["formats"]["index_u32"]["references_per_triangle"], 3)
-            ring = mesh["ring"]
-            self.assertEqual(ring["ring_vertices"] + ring["isolated"], mesh["vertices"])
-            self.assertLess(mesh["formats"]["lean"]["references_per_triangle"], 1.35)
-        self.assertEqual(meshes["torus"]["valence6_percent"], 100)
-        self.assertGreaterEqual(meshes["terrain"]["border_loops"], 3)
-        self.assertGreater(meshes["parts"]["components"], 50)
-        self.assertGreater(meshes["soup"]["nonmanifold_edges"], 5)
-        self.assertGreater(meshes["soup"]["degenerate_dropped"], 2)
+            with self.subTest(closed=kind):
+                self.check_closed(meshes[kind])
+        with self.subTest("counts of kinds with known topology"):
+            self.assertEqual(meshes["torus"]["valence6_percent"], 100)
+            self.assertGreaterEqual(meshes["terrain"]["border_loops"], 3)
+            self.assertGreater(meshes["parts"]["components"], 50)
+            self.assertGreater(meshes["soup"]["nonmanifold_edges"], 5)
+            self.assertGreater(meshes["soup"]["degenerate_dropped"], 2)
 
     def test_stats_options(self):
         path = self.generate("blob", 3000)
@@ -284,7 +298,7 @@ class Json(CliTest):
             with self.subTest(options):
                 self.check_stats(self.json("stats", path, *options, "--json")["meshes"][0])
 
-    def test_index_u16_is_absent_where_it_does_not_fit(self):
+    def test_index_u16_is_absent_beyond_65536_vertices(self):
         mesh = self.json("stats", self.generate("sphere", 140000), "--json")["meshes"][0]
         self.assertNotIn("index_u16", mesh["formats"])
         self.assertIn("index_u16", mesh["absent"])
@@ -307,45 +321,58 @@ class Json(CliTest):
             for entry in structure.values():
                 self.assertGreater(entry["ns_per_op"], 0)
 
-    def test_bench(self):
-        path = self.generate("blob", 2000)
-        document = self.json("bench", path, "--json")
-        self.assertEqual(len(document["meshes"]), 1)
-        mesh = document["meshes"][0]
-        self.assertEqual(mesh["file"], path)
-        self.assertEqual(mesh["triangles"], 2000)
-        for key in ("construct", "decode_cpu", "unpack", "restore", "decode_gpu", "draw", "operators", "peak_bytes"):
-            self.assertIsInstance(mesh[key], dict, key)
+    def check_bench_times(self, mesh):
+        self.assertTrue(mesh["peak_bytes"])
         for key in ("construct", "decode_cpu", "unpack", "restore"):
-            self.assertTrue(mesh[key])
+            self.assertTrue(mesh[key], key)
             for name, entry in mesh[key].items():
                 self.assertGreater(entry["seconds"], 0, name)
                 self.assertGreater(entry["mtri_per_s"], 0, name)
-        self.assertTrue(mesh["peak_bytes"])
+        for name in ("vertices", "meshopt_vertex_codec"):
+            self.assertGreater(mesh["decode_cpu"][name]["mvert_per_s"], 0, name)
+        self.assertGreater(mesh["decode_cpu_ratio"]["meshopt_vertex_codec_over_vertices"], 0)
+
+    def check_bench_names(self, mesh, rivals):
         self.assertEqual(set(mesh["construct"]), {"corner_table", "ring", "lean_encode", "lean", "strips", "ring_hybrid",
                                                   "lr", "lr_compact", "squad", "optimize", "packed_encode",
                                                   "packed_cache_encode", "packed"})
         self.assertEqual(set(mesh["decode_cpu"]), {"lean", "copy", "packed", "packed_2_threads", "packed_cache",
                                                    "meshopt_index_codec", "vertices", "meshopt_vertex_codec"})
-        for name in ("vertices", "meshopt_vertex_codec"):
-            self.assertGreater(mesh["decode_cpu"][name]["mvert_per_s"], 0, name)
-        self.assertGreater(mesh["decode_cpu_ratio"]["meshopt_vertex_codec_over_vertices"], 0)
-        self.assertEqual(mesh["position_bits"], 14)
-        rivals = {"draco", "draco_smallest"} - set(mesh["absent"])  # a build may lack Draco
         self.assertEqual(set(mesh["unpack"]), {"lacedring"} | rivals)
         self.assertEqual(set(mesh["restore"]), {"lacedring", "lacedring_decoded", "lacedring_arrays"} | (rivals & {"draco"}))
-        self.assertTrue(all(entry["bytes"] > 0 for entry in (*mesh["unpack"].values(), *mesh["restore"].values())))
-        for entry in mesh["restore"].values():
-            self.assertAlmostEqual(entry["ns_per_triangle"], 1e9 * entry["seconds"] / 2000)
+
+    def check_bench_sizes(self, mesh, rivals):
+        self.assertEqual(mesh["position_bits"], 14)
+        for name, entry in [*mesh["unpack"].items(), *mesh["restore"].items()]:
+            self.assertGreater(entry["bytes"], 0, name)
+        for name, entry in mesh["restore"].items():
+            self.assertAlmostEqual(entry["ns_per_triangle"], 1e9 * entry["seconds"] / 2000, msg=name)
         for key in ("unpack_ratio", "restore_ratio"):
-            self.assertEqual("draco" in rivals, mesh[key]["draco_over_lacedring"] is not None)
+            self.assertEqual("draco" in rivals, mesh[key]["draco_over_lacedring"] is not None, key)
+
+    def test_bench(self):
+        path = self.generate("blob", 2000)
+        document = self.json("bench", path, "--json")
+        self.assertEqual(len(document["meshes"]), 1)
+        mesh = document["meshes"][0]
+        self.assertEqual((mesh["file"], mesh["triangles"]), (path, 2000))
+        for key in ("construct", "decode_cpu", "unpack", "restore", "decode_gpu", "draw", "operators", "peak_bytes"):
+            self.assertIsInstance(mesh[key], dict, key)
+        rivals = {"draco", "draco_smallest"} - set(mesh["absent"])  # a build may lack Draco
+        with self.subTest("every step has a time and a rate"):
+            self.check_bench_times(mesh)
+        with self.subTest("the steps and rivals are the documented ones"):
+            self.check_bench_names(mesh, rivals)
+        with self.subTest("unpacked and restored files have sizes and ratios"):
+            self.check_bench_sizes(mesh, rivals)
         if mesh["decode_gpu"]:
-            self.assertGreater(mesh["decode_gpu"]["vertices"]["mvert_per_s"], 0)
-            self.assertGreater(mesh["decode_gpu_ratio"]["packed_vertices_over_packed"], 0)
+            with self.subTest("the device's decoding has a rate and a ratio"):
+                self.assertGreater(mesh["decode_gpu"]["vertices"]["mvert_per_s"], 0)
+                self.assertGreater(mesh["decode_gpu_ratio"]["packed_vertices_over_packed"], 0)
 
 
 class Pictures(CliTest):
-    """Only where the program was built with a renderer. A machine without any Vulkan device ends with exit 4."""
+    """Skipped if the program was built without a renderer. Without a Vulkan device the exit code is 4."""
 
     def setUp(self):
         super().setUp()
@@ -380,23 +407,26 @@ class Pictures(CliTest):
         self.device_or_skip(outcome)
         self.assertEqual(outcome.code, DONE, str(outcome))
         document = json.loads(outcome.out)
-        self.assertEqual(document["schema"], 1)
-        self.assertEqual(document["file"], mesh)
-        for key in ("name", "driver", "api"):
-            self.assertTrue(document["device"][key])
-        self.assertEqual(document["size"], [320, 240])
-        self.assertGreaterEqual(document["views"], 6)
-        self.assertIsInstance(document["skipped"], list)
-        self.assertEqual({r["source"] for r in document["results"]}, {"lean", "packed", "packed_vertices"})
+        with self.subTest("the document names file, device, size and views"):
+            self.assertEqual((document["schema"], document["file"], document["size"]), (1, mesh, [320, 240]))
+            for key in ("name", "driver", "api"):
+                self.assertTrue(document["device"][key], key)
+            self.assertGreaterEqual(document["views"], 6)
+            self.assertIsInstance(document["skipped"], list)
+            self.assertEqual({r["source"] for r in document["results"]}, {"lean", "packed", "packed_vertices"})
         for result in document["results"]:
-            self.assertTrue(result["source"] and result["path"])
-            for key in ("pixels_different", "max_channel_difference", "triangle_ids_different"):
-                self.assertEqual(result[key], 0, key)
-            self.assertIs(result["indices_equal_cpu"], True)
-            self.assertIs(result.get("vertices_equal_cpu"), True if result["source"] == "packed_vertices" else None)
-            self.assertGreater(result["covered_pixels"], 0)
-            for key in ("raw_pixels_different", "raw_max_channel_difference"):
-                self.assertIsInstance(result[key], NUMBER)
+            with self.subTest(source=result["source"], path=result["path"]):
+                self.check_equal_pictures(result)
+
+    def check_equal_pictures(self, result):
+        self.assertTrue(result["source"] and result["path"])
+        for key in ("pixels_different", "max_channel_difference", "triangle_ids_different"):
+            self.assertEqual(result[key], 0, key)
+        self.assertIs(result["indices_equal_cpu"], True)
+        self.assertIs(result.get("vertices_equal_cpu"), True if result["source"] == "packed_vertices" else None)
+        self.assertGreater(result["covered_pixels"], 0)
+        for key in ("raw_pixels_different", "raw_max_channel_difference"):
+            self.assertIsInstance(result[key], NUMBER, key)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_report.py LACEDRING: the page of report: whole, by itself, with the numbers of stats, and as a browser shows it."""
+"""test_report.py LACEDRING: the page of `report` is well-formed and self-contained, has the numbers of stats, and a browser shows it."""
 
 import base64
 import html
@@ -16,13 +16,13 @@ import cli_support
 from cli_support import BAD_INPUT, CliTest, NO_DEVICE, WRONG_USAGE, main, run
 
 VOID = {"meta", "img", "br", "wbr", "link", "hr", "input"}
-SVG_LEAVES = {"line"}  # written <line .../>: the parser reports those apart
-HOSTILE = "a\"><img src=x onerror=alert(1)>&amp;'\n\u202e\x01 \udcff.ply"  # the last: a byte that is no UTF-8
+SVG_LEAVES = {"line"}  # elements written <line .../>
+HOSTILE = "a\"><img src=x onerror=alert(1)>&amp;'\n\u202e\x01 \udcff.ply"  # \udcff is a byte that is no UTF-8
 VIEWS = ["The mesh", "The ring and its triangles", "Order along the ring"]
 
 
 class Page(html.parser.HTMLParser):
-    """Checks that tags balance, and keeps what the tests ask for."""
+    """Checks that tags balance, and collects tags, texts, tables and images."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)
@@ -113,7 +113,7 @@ def read_png(data):
     return width, height, rows
 
 
-def colours(png):
+def colors(png):
     width, height, rows = png
     step = len(rows[0]) // width
     return {row[i:i + 3] for row in rows for i in range(0, len(row), step)}
@@ -122,7 +122,7 @@ def colours(png):
 class Report(CliTest):
     def page(self, *arguments):
         self.ok("report", *arguments, "-o", self.path("out.html"))
-        with open(self.path("out.html"), encoding="utf-8") as file:  # that it is UTF-8 is part of the test
+        with open(self.path("out.html"), encoding="utf-8") as file:  # must be UTF-8
             text = file.read()
         page = Page(text)
         self.assertEqual(page.problems, [])
@@ -149,28 +149,32 @@ class Report(CliTest):
         self.assertIn("default-src 'none'", policy[0])
 
     def check_numbers(self, rows, mesh):
-        """The size table against stats --json."""
+        """Compares the size table with stats --json."""
         body = {row[0]: row[1:] for row in rows[1:]}
         self.assertEqual([row[0] for row in rows[1:]], [*mesh["formats"], *mesh["absent"]])
         base = mesh["formats"]["index_u32"]["bytes"]
         for name, entry in mesh["formats"].items():
-            bits, size, references, share, acmr, atvr, deflated, ring, what = body[name]
-            self.assertEqual(size, f"{entry['bytes']:,}")
-            self.assertEqual(bits, f"{entry['bits_per_triangle']:.3f}")
-            self.assertEqual(references, f"{entry['references_per_triangle']:.3f}" if references else "")
-            self.assertEqual(references == "", entry["references_per_triangle"] == 0)
-            self.assertEqual(share, f"{100 * entry['bytes'] / base:.1f}\xa0%")
-            self.assertEqual(acmr, f"{entry['acmr_fifo32']:.3f}")
-            self.assertEqual(atvr, f"{entry['atvr_fifo32']:.3f}")
-            self.assertEqual(deflated, f"{entry['bytes_deflated']:,}" if "bytes_deflated" in entry else "")
-            self.assertEqual(ring == "", "ring" not in entry)
-            if "ring" in entry:
-                self.assertIn("expander" if entry["k"] is None else f"hybrid, k = {entry['k']}", ring)
-                self.assertEqual(f", {entry['passes']} pass" in ring, entry["passes"] != 0)
-            baseline = name not in ("lean", "lean_no_warts", "lr", "lr_compact", "packed", "packed_cache")
-            self.assertEqual(what.startswith("baseline"), baseline)
+            with self.subTest(format=name):
+                self.check_row(name, body[name], entry, base)
         for name, reason in mesh["absent"].items():
             self.assertEqual(body[name], [f"absent: {reason}"])
+
+    def check_row(self, name, row, entry, base):
+        bits, size, references, share, acmr, atvr, deflated, ring, what = row
+        self.assertEqual(size, f"{entry['bytes']:,}")
+        self.assertEqual(bits, f"{entry['bits_per_triangle']:.3f}")
+        self.assertEqual(references, f"{entry['references_per_triangle']:.3f}" if references else "")
+        self.assertEqual(references == "", entry["references_per_triangle"] == 0)
+        self.assertEqual(share, f"{100 * entry['bytes'] / base:.1f}\xa0%")
+        self.assertEqual(acmr, f"{entry['acmr_fifo32']:.3f}")
+        self.assertEqual(atvr, f"{entry['atvr_fifo32']:.3f}")
+        self.assertEqual(deflated, f"{entry['bytes_deflated']:,}" if "bytes_deflated" in entry else "")
+        self.assertEqual(ring == "", "ring" not in entry)
+        if "ring" in entry:
+            self.assertIn("expander" if entry["k"] is None else f"hybrid, k = {entry['k']}", ring)
+            self.assertEqual(f", {entry['passes']} pass" in ring, entry["passes"] != 0)
+        baseline = name not in ("lean", "lean_no_warts", "lr", "lr_compact", "packed", "packed_cache")
+        self.assertEqual(what.startswith("baseline"), baseline)
 
     def check_offsets(self, rows, mesh):
         self.assertEqual(len(rows[0]), 4)
@@ -192,20 +196,23 @@ class Report(CliTest):
                 mesh, = self.stats(path, *options)
                 self.check_numbers(*page.tables_of("sizes"), mesh)
                 self.check_offsets(*page.tables_of("offsets"), mesh)
-                words = page.words()
-                self.assertIn(f"{mesh['triangles']:,} triangles", words)
-                self.assertIn(f"{mesh['vertices']:,} vertices", words)
-                share = 100 * mesh["ring"]["t0"] / mesh["triangles"]
-                self.assertIn(f"{mesh['ring']['isolated']:,} isolated; T0 {share:.2f} %", words)
-                self.assertIn(f"ACMR {mesh['best_order']['acmr_fifo32']:.3f}", words)
-                self.assertEqual(page.tables_of("overview"), [])
-                self.assertIn("No pictures: ", words)
-                self.assertIn(run("--version").out.strip(), words)
-                self.assertIn(" ".join(["lacedring report --output", self.path("out.html")]), words)
-                for option in options:
-                    self.assertIn(option, words)
+                self.assertEqual(page.tables_of("overview"), [], "one mesh has no overview")
+                self.check_summary(page.words(), mesh)
+                self.check_command(page.words(), options)
 
-    def test_its_command_makes_it_again(self):
+    def check_summary(self, words, mesh):
+        share = 100 * mesh["ring"]["t0"] / mesh["triangles"]
+        for text in (f"{mesh['triangles']:,} triangles", f"{mesh['vertices']:,} vertices",
+                     f"{mesh['ring']['isolated']:,} isolated; T0 {share:.2f} %",
+                     f"ACMR {mesh['best_order']['acmr_fifo32']:.3f}"):
+            self.assertIn(text, words)
+
+    def check_command(self, words, options):
+        for text in ("No pictures: ", run("--version").out.strip(),
+                     " ".join(["lacedring report --output", self.path("out.html")]), *options):
+            self.assertIn(text, words)
+
+    def test_the_shown_command_makes_the_same_page(self):
         path = self.path("-it's $(a) mesh.ply")
         os.rename(self.generate("sphere", 100), path)
         arguments = ["--no-gpu", "--weld", "--k", "5", "--ring=hybrid", "--output=-a page.html", "--", os.path.basename(path)]
@@ -224,7 +231,7 @@ class Report(CliTest):
     def test_several_meshes(self):
         paths = [self.generate("sphere", 500), self.generate("terrain", 700), self.generate("torus", 600)]
         os.mkdir(self.path("other"))
-        paths.append(shutil.copy(paths[0], self.path("other")))  # two of one name are told apart
+        paths.append(shutil.copy(paths[0], self.path("other")))  # two files of one name have their folders
         page = self.page("--no-gpu", *paths)
         overview, = page.tables_of("overview")
         self.assertEqual([row[0] for row in overview[2:]],
@@ -257,14 +264,14 @@ class Report(CliTest):
             self.assertRegex(image["alt"], r"\A(torus|blob)-800-1\.ply: \w+")
             png = read_png(base64.b64decode(image["src"].partition(",")[2], validate=True))
             self.assertEqual(png[:2], (200, 150))
-            self.assertGreater(len(colours(png)), 500, image["alt"])
+            self.assertGreater(len(colors(png)), 500, image["alt"])
             pictures.append(png)
         self.assertEqual(len({b"".join(rows) for _, _, rows in pictures}), 6, "no two are the same")
         words = page.words()
         for view in VIEWS:
             self.assertIn(view, words)
         self.assertRegex(words, r"Device\s*[^;]+Vulkan 1\.\d+\.\d+; 9 samples per pixel")
-        # The same page, byte for byte, when it is made again.
+        # The page is the same, byte for byte, when it is made again.
         os.rename(self.path("out.html"), self.path("first.html"))
         page = self.page(self.path("torus-800-1.ply"), self.path("blob-800-1.ply"), "--size", "200x150")
         with open(self.path("first.html"), "rb") as a, open(self.path("out.html"), "rb") as b:
@@ -281,7 +288,7 @@ class Report(CliTest):
                    ("--camera-position=0,0,9", "--camera-focal-point=0,0,0")]
         pages = [self.page(torus, "--size", "200x150", *camera) for camera in cameras]
         self.assertEqual(len({page.images[0]["src"] for page in pages}), len(cameras), "no two are the same")
-        # As render draws it from there.
+        # The picture equals that of render.
         self.ok("render", torus, "-o", self.path("render.png"), "--size", "200x150", *cameras[1])
         with open(self.path("render.png"), "rb") as file:
             rendered = read_png(file.read())
@@ -334,7 +341,7 @@ class Browser(CliTest):
         self.assertIsNotNone(chromium, "chromium is missing: scripts/install-deps installs it")
         picture = self.path(f"shot-{size}.png")
         profile = tempfile.mkdtemp(prefix="profile-", dir=self.folder)
-        # No network for the browser: its proxy is not there. What a page asks for in vain is on its console.
+        # The browser has no network because its proxy does not exist. Failed requests of the page are in its console.
         result = subprocess.run(
             [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars",
@@ -353,14 +360,14 @@ class Browser(CliTest):
             ("1280,1000",), ("400,900", "--blink-settings=preferredColorScheme=0"))]
         for (width, height, rows), log in shots:
             self.assertNotRegex(log, r"CONSOLE")
-            self.assertGreater(len(colours((width, height, rows))), 60)
-            # Text and charts in the upper part, the page's margin around them.
+            self.assertGreater(len(colors((width, height, rows))), 60)
+            # The margin is empty; text and charts are in the upper part.
             self.assertEqual(len({rows[y][:9] for y in range(height)}), 1)
         light, dark = (rows[0][0] for (_, _, rows), _ in shots)
         self.assertGreater(light, 240)
         self.assertLess(dark, 40)
 
-    def test_the_console_would_tell(self):
+    def test_the_console_reports_a_failed_request(self):
         self.ok("report", self.generate("torus", 200), "--no-gpu", "-o", self.path("page.html"))
         with open(self.path("page.html"), encoding="utf-8") as file:
             text = file.read()

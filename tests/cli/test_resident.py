@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_resident.py LACEDRING: `bench --resident`. Times are not looked at, the paging is: it is the same in every run."""
+"""test_resident.py LACEDRING: `bench --resident`. Tests the paging, which is the same in every run, not the times."""
 
 import os
 import resource
@@ -28,6 +28,20 @@ class Resident(CliTest):
         self.assertEqual(set(structure["random"]), OPERATORS)
         return [*structure["scan"].values(), *structure["random"].values(), structure["contour"]]
 
+    def check_structure(self, structure, limit, size, whole):
+        """A structure within its limit is read once; a much larger one is paged by the operators that read all of it."""
+        self.assertLessEqual(structure["resident_bytes"], limit)
+        self.assertEqual(structure["resident_bytes"], min(limit, whole(size)))
+        cells = self.cells(structure)
+        for cell in cells:
+            self.assertGreater(cell["ns_per_op"], 0)
+        if size <= limit:
+            self.assertEqual([cell["pages_per_op"] for cell in cells], [0] * 9)
+        elif 2 * limit < size:
+            for kind in ("valence", "normal"):
+                self.assertGreater(structure["scan"][kind]["pages_per_op"], 0, kind)
+                self.assertGreater(structure["random"][kind]["pages_per_op"], 0, kind)
+
     def test_levels(self):
         path = self.generate("blob", 20000)
         resident = self.measure(path, "--levels", "1.25,0.5,0.25")
@@ -39,7 +53,8 @@ class Resident(CliTest):
         levels = resident["levels"]
         limits = [level["limit_bytes"] for level in levels]
         self.assertEqual(limits, sorted(set(limits), reverse=True))
-        self.assertEqual(len(limits), 6)  # and the size of either LR, and half of one
+        # Three given levels, the sizes of both LR tables, and half of one.
+        self.assertEqual(len(limits), 6)
         whole = lambda bytes: -(-bytes // page) * page
         rounded = lambda bytes: max(8 * page, whole(bytes))
         self.assertEqual(limits[0], rounded(int(1.25 * sizes["corner_table"])))
@@ -50,28 +65,17 @@ class Resident(CliTest):
             self.assertEqual(set(level["structures"]), set(STRUCTURES))
             for name in STRUCTURES:
                 with self.subTest(structure=name, limit=limit):
-                    structure = level["structures"][name]
-                    self.assertLessEqual(structure["resident_bytes"], limit)
-                    self.assertEqual(structure["resident_bytes"], min(limit, whole(sizes[name])))
-                    cells = self.cells(structure)
-                    for cell in cells:
-                        self.assertGreater(cell["ns_per_op"], 0)
-                    if sizes[name] <= limit:
-                        self.assertEqual([cell["pages_per_op"] for cell in cells], [0] * 9)
-                    elif 2 * limit < sizes[name]:
-                        for kind in ("valence", "normal"):  # they go through all of it
-                            self.assertGreater(structure["scan"][kind]["pages_per_op"], 0)
-                            self.assertGreater(structure["random"][kind]["pages_per_op"], 0)
+                    self.check_structure(level["structures"][name], limit, sizes[name], whole)
 
         again = self.measure(path, "--levels", "1.25,0.5,0.25", "--scratch", self.folder)
-        self.assertEqual(os.listdir(self.folder), [os.path.basename(path)])  # the scratch files are gone
+        self.assertEqual(os.listdir(self.folder), [os.path.basename(path)])  # scratch files are removed
         for one, other in zip(levels, again["levels"]):
             for name in STRUCTURES:
                 pages = [[cell["pages_per_op"] for cell in self.cells(level["structures"][name])] for level in (one, other)]
                 self.assertEqual(*pages)
 
     def test_awkward_meshes(self):
-        """Borders, non-manifold and degenerate triangles: the program compares every structure's results itself."""
+        """Borders, non-manifold edges, degenerate triangles. The program compares the structures' results with each other."""
         for kind in ("terrain", "moebius", "soup", "parts"):
             with self.subTest(kind):
                 resident = self.measure(self.generate(kind, 2000), "--levels", "0.25")

@@ -109,44 +109,53 @@ class Scenes(CliTest):
 
     def test_info(self):
         report = self.json("info", self.scene, "--json")
-        rows = [[p[name] for name in ("mesh", "primitive", "name", "mode", "triangles", "vertices", "copies", "placed")]
-                for p in report["primitives"]]
-        self.assertEqual(rows, [[0, 0, "cube", "triangles", 4, 8, 8, 2], [0, 1, "cube", "triangles", 8, 8, 16, 2],
-                                [1, 0, "", "strip", 3, 5, 5, 3]])
-        self.assertEqual([[a["name"] for a in p["attributes"]] for p in report["primitives"]],
-                         [["POSITION", "NORMAL", "TEXCOORD_0"]] * 2 + [["POSITION"]])
-        self.assertEqual(report["sum"], {"primitives": 3, "triangles": 15, "placed_triangles": 33, "vertices": 21, "copies": 29})
-        self.assertEqual(report["triangles"], 33)
-        self.assertEqual([a["name"] for a in report["attributes"]], ["POSITION", "NORMAL"])
+        with self.subTest("primitives have mesh, mode, counts and placements"):
+            rows = [[p[name] for name in ("mesh", "primitive", "name", "mode", "triangles", "vertices", "copies", "placed")]
+                    for p in report["primitives"]]
+            self.assertEqual(rows, [[0, 0, "cube", "triangles", 4, 8, 8, 2], [0, 1, "cube", "triangles", 8, 8, 16, 2],
+                                    [1, 0, "", "strip", 3, 5, 5, 3]])
+            self.assertEqual(self.json("info", self.scene, "--no-weld", "--json")["primitives"][0]["vertices"], 8)
+        with self.subTest("primitives have all their attributes, the joined mesh those of all"):
+            self.assertEqual([[a["name"] for a in p["attributes"]] for p in report["primitives"]],
+                             [["POSITION", "NORMAL", "TEXCOORD_0"]] * 2 + [["POSITION"]])
+            self.assertEqual([a["name"] for a in report["attributes"]], ["POSITION", "NORMAL"])
+        with self.subTest("the sum of the primitives"):
+            self.assertEqual(report["sum"], {"primitives": 3, "triangles": 15, "placed_triangles": 33, "vertices": 21, "copies": 29})
+            self.assertEqual(report["triangles"], 33)
         outcome = self.ok("info", self.scene)
-        self.assertRegex(outcome.out, r"\n +1 +0 +strip +3 +5 +5 +3  POSITION\n")
-        self.assertRegex(outcome.out, r"\n +sum +15 +21 +29 +7  33 triangles where they are placed\n\Z")
-        self.assertIn("1 primitive without normals (made from its triangles)", outcome.err)
-        self.assertIn("3 primitives (joined into one)", outcome.err)
-        self.assertEqual(self.json("info", self.scene, "--no-weld", "--json")["primitives"][0]["vertices"], 8)
+        with self.subTest("the text has a line per primitive and their sum"):
+            self.assertRegex(outcome.out, r"\n +1 +0 +strip +3 +5 +5 +3  POSITION\n")
+            self.assertRegex(outcome.out, r"\n +sum +15 +21 +29 +7  33 triangles where they are placed\n\Z")
+        with self.subTest("notes name what is joined or made"):
+            self.assertIn("1 primitive without normals (made from its triangles)", outcome.err)
+            self.assertIn("3 primitives (joined into one)", outcome.err)
 
     def test_stats(self):
         mesh, = self.json("stats", self.scene, "--json")["meshes"]
-        self.assertEqual(mesh["triangles"], 33)
-        self.assertIn("lr_compact", mesh["formats"])
-        self.assertEqual([(p["mesh"], p["primitive"], p["triangles"]) for p in mesh["primitives"]],
-                         [(0, 0, 4), (0, 1, 8), (1, 0, 3)])
-        for part in [*mesh["primitives"], mesh["sum"]]:
-            self.assertEqual(set(part["formats"]), QUICK)
-            for name, entry in part["formats"].items():
-                self.assertAlmostEqual(entry["bits_per_triangle"], 8 * entry["bytes"] / part["triangles"], msg=name)
-        self.assertEqual(mesh["sum"]["triangles"], 15)
-        for name in QUICK:
-            for key in ("bytes", "seam_bytes"):
-                self.assertEqual(mesh["sum"]["formats"][name][key],
-                                 sum(p["formats"][name][key] for p in mesh["primitives"]), name)
-        self.assertEqual(mesh["sum"]["formats"]["index_u32"]["bytes"], 15 * 12)
-        self.assertGreater(mesh["primitives"][1]["formats"]["packed"]["seam_bytes"], 0)
-        text = self.ok("stats", self.scene).out
-        self.assertIn("3 primitives, each by itself", text)
-        self.assertRegex(text, r"\n +sum, bytes +180 ")
-        for table in ("table1", "total", "packed"):
-            self.assertNotIn("by itself", self.ok("stats", "--table", table, self.scene).out)
+        with self.subTest("the joined mesh and its primitives have triangles and formats"):
+            self.assertEqual(mesh["triangles"], 33)
+            self.assertIn("lr_compact", mesh["formats"])
+            self.assertEqual([(p["mesh"], p["primitive"], p["triangles"]) for p in mesh["primitives"]],
+                             [(0, 0, 4), (0, 1, 8), (1, 0, 3)])
+        with self.subTest("bits per triangle follow from the bytes"):
+            for part in [*mesh["primitives"], mesh["sum"]]:
+                self.assertEqual(set(part["formats"]), QUICK)
+                for name, entry in part["formats"].items():
+                    self.assertAlmostEqual(entry["bits_per_triangle"], 8 * entry["bytes"] / part["triangles"], msg=name)
+        with self.subTest("the sum adds up the primitives"):
+            self.assertEqual(mesh["sum"]["triangles"], 15)
+            for name in QUICK:
+                for key in ("bytes", "seam_bytes"):
+                    self.assertEqual(mesh["sum"]["formats"][name][key],
+                                     sum(p["formats"][name][key] for p in mesh["primitives"]), name)
+            self.assertEqual(mesh["sum"]["formats"]["index_u32"]["bytes"], 15 * 12)
+            self.assertGreater(mesh["primitives"][1]["formats"]["packed"]["seam_bytes"], 0)
+        with self.subTest("the text has the primitives, except with --table"):
+            text = self.ok("stats", self.scene).out
+            self.assertIn("3 primitives, each by itself", text)
+            self.assertRegex(text, r"\n +sum, bytes +180 ")
+            for table in ("table1", "total", "packed"):
+                self.assertNotIn("by itself", self.ok("stats", "--table", table, self.scene).out)
 
     def test_many_primitives(self):
         scene = Scene()

@@ -1,5 +1,5 @@
 #version 460
-// The triangle's normal, darker from behind.
+// Colors a triangle by its normal, darker from behind.
 layout(location = 0) in vec3 position;
 layout(location = 0) out vec4 colour;
 

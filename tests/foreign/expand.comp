@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The stream into an index buffer, one invocation a triangle.
+// Expands the stream to an index buffer, one invocation per triangle.
 layout(local_size_x = 64) in;
 
 #include "stream.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Vertices from input assembly: for the plain index list, and for one that expand.comp wrote.
+// Vertices from input assembly, for the plain index list and the one of expand.comp.
 layout(push_constant) uniform Push { mat4 camera; };
 layout(location = 0) in vec3 vertex;
 layout(location = 0) out vec3 position;

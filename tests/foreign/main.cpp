@@ -1,6 +1,6 @@
-// A renderer that knows nothing of LacedRing but the installed package: lacedring::encode_lean and
-// lacedring::encode_packed on the host, lacedring.glsl on the device. It draws a mesh from its index list and from its
-// streams in every way that there is, and compares the pictures. docs/engine-guide.md explains the ways.
+// A renderer that uses only the installed package: lacedring::encode_lean and lacedring::encode_packed on the host,
+// lacedring.glsl on the device. It draws a mesh from its index list and from its streams in every way
+// (docs/engine-guide.md) and compares the pictures.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,15 +25,15 @@
 
 namespace {
 
-// docs/lean-format.md, docs/packed-format.md
-constexpr std::size_t kLeanHeaderWords = 8, kPackedHeaderWords = 4;  // the last is the checksum
+// docs/lean-format.md, docs/packed-format.md. The last word of a header is the checksum.
+constexpr std::size_t kLeanHeaderWords = 8, kPackedHeaderWords = 4;
 constexpr std::uint32_t kTipMask = 0x1fffffff;
 
-/// What an engine keeps of either format: words to upload as they are, and the order of the vertices to go with them.
+/// A stream of either format as an engine keeps it: words to upload, and the order of its vertices.
 struct Stream {
     bool lean;
     std::vector<std::uint32_t> words, vertex_order;
-    std::uint32_t triangles;  ///< to draw: of a lean stream its slots, some of them degenerate
+    std::uint32_t triangles;  ///< to draw; of a lean stream its slots, some degenerate
 };
 
 Stream lean_stream(const lacedring::CornerTable& table, const lacedring::Rings& rings) {
@@ -61,8 +61,8 @@ std::size_t triangles_changed(const Stream& stream, std::span<const std::uint32_
     return count;
 }
 
-/// Changes one tip, or one turn: still a valid stream, of another mesh. Of some triangles more than one: these are
-/// small.
+/// Changes one tip or turn, which makes a valid stream of another mesh; more than one if the mesh is large, because its
+/// triangles are small.
 void break_stream(Stream& stream, std::uint32_t vertices) {
     for (std::uint32_t at = stream.triangles / 3; at < stream.triangles; ++at) {
         std::vector<std::uint32_t> words = stream.words;
@@ -84,7 +84,7 @@ void break_stream(Stream& stream, std::uint32_t vertices) {
     throw std::runtime_error("no place to break the stream");
 }
 
-/// From a corner, everything in view.
+/// A camera at a corner of the bounding box that sees the whole mesh.
 Push look_at(const std::vector<float>& positions) {
     float low[3], high[3];
     for (int i = 0; i < 3; ++i) low[i] = high[i] = positions[static_cast<std::size_t>(i)];
@@ -107,7 +107,7 @@ Push look_at(const std::vector<float>& positions) {
     return push;
 }
 
-/// The mesh's own list; only that each triangle begins with the vertex that comes first in the stream.
+/// The mesh's index list, each triangle rotated to begin with the vertex that is first in the stream.
 std::vector<std::uint32_t> plain_indices(const lacedring::Mesh& mesh, const std::vector<std::uint32_t>& vertex_order) {
     std::vector<std::uint32_t> rank(mesh.vertex_count), indices = mesh.indices;
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) rank[vertex_order[v]] = v;
@@ -118,8 +118,7 @@ std::vector<std::uint32_t> plain_indices(const lacedring::Mesh& mesh, const std:
     return indices;
 }
 
-/// Prints a line, and says whether the pictures are the same: all pixels, or for `nearly` all but one in 10,000, and
-/// these by 1/255.
+/// Prints a line and returns whether the pictures are equal. `nearly`: one pixel in 10,000 may differ by 1/255.
 bool compare(const std::string& way, const Picture& plain, const Picture& picture, bool nearly) {
     std::size_t covered = 0, different = 0;
     int most = 0;
@@ -154,7 +153,7 @@ bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
     const Stage colour{VK_SHADER_STAGE_FRAGMENT_BIT, colour_frag};
     const VkPipeline indexed = gpu.graphics(std::array{vertices, colour}, Input::indexed);
 
-    // vkCmdDrawIndexed, as ever.
+    // Plain vkCmdDrawIndexed.
     const auto draw_indexed = [&](const Buffer& vertex_buffer, const Buffer& indices, std::uint32_t triangles) {
         return [=](VkCommandBuffer commands) {
             constexpr VkDeviceSize zero = 0;
@@ -164,7 +163,7 @@ bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
             vkCmdDrawIndexed(commands, 3 * triangles, 1, 0, 0, 0);
         };
     };
-    // No index buffer and no vertex buffer: the shaders read both.
+    // Without index and vertex buffers: the shaders read the stream and the vertices.
     const auto draw_pulled = [&](VkPipeline pipeline, std::uint32_t count) {
         return [=](VkCommandBuffer commands) {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
@@ -185,7 +184,7 @@ bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
         good &= compare("plain, against " + name, plain, plain, false);
         if (broken) break_stream(stream, mesh.vertex_count);
 
-        // All that is uploaded: the words, and the vertices in the stream's order.
+        // Only the words and the vertices in the stream's order are uploaded.
         std::vector<float> ordered(positions.size());
         for (std::size_t v = 0; v < stream.vertex_order.size(); ++v) {
             std::copy_n(&positions[3 * std::size_t{stream.vertex_order[v]}], 3, &ordered[3 * v]);

@@ -1,3 +1,3 @@
 #version 460
-// vkCmdDraw of one point a triangle: points.geom makes the triangle.
+// One point per triangle; points.geom makes the triangle.
 void main() { gl_Position = vec4(0.0, 0.0, 0.0, 1.0); }

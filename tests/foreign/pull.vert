@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// vkCmdDraw of three vertices a triangle, no index buffer, no vertex input.
+// Three vertices per triangle, without index buffer and vertex input.
 #include "stream.glsl"
 #include "vertices.glsl"
 

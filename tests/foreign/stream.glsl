@@ -1,4 +1,4 @@
-// What every shader here that reads a stream begins with: where its words are, and the include.
+// The declarations of every shader that reads a stream: the buffer of its words, and the include.
 layout(std430, binding = 0) readonly buffer Stream { uint words[]; };
 
 #ifdef PACKED
@@ -13,7 +13,7 @@ uvec3 stream_triangle(uint t) { return lr_lean_triangle(lr_lean_layout(), t); }
 uint stream_triangles() { return lr_lean_slots(lr_lean_layout()); }
 #endif
 
-// For the comparison only: pixels depend, in their last bit, on which corner a triangle begins with.
+// For the comparison only: the last bit of pixels depends on the first corner of a triangle.
 uvec3 smallest_first(uvec3 v) {
     if (v.y < v.x && v.y < v.z) return v.yzx;
     return v.z < v.x && v.z < v.y ? v.zxy : v;

@@ -57,7 +57,7 @@ Gpu::Gpu(std::uint32_t& messages) {
     check(create_messenger(instance_, &lasting, nullptr, &handle), "vkCreateDebugUtilsMessengerEXT");
     undo_.push_back([=, this] { destroy_messenger(instance_, handle, nullptr); });
 
-    // The first device, and its first queue family that draws and computes.
+    // Selects the first device and its first queue family for graphics and compute.
     std::uint32_t one = 1;
     const VkResult devices = vkEnumeratePhysicalDevices(instance_, &one, &physical_);
     if (one == 0 || (devices != VK_SUCCESS && devices != VK_INCOMPLETE)) throw std::runtime_error("no Vulkan device");
@@ -155,7 +155,7 @@ std::uint32_t Gpu::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags want
     throw std::runtime_error("no memory of a wanted type");
 }
 
-// Memory that the host writes, for simplicity: an engine copies to the device's own.
+// Host-visible memory, for simplicity; an engine copies to device-local memory.
 Buffer Gpu::buffer(std::size_t bytes, VkBufferUsageFlags usage, const void* contents) {
     Buffer b{.bytes = bytes};
     const VkBufferCreateInfo create{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
@@ -349,8 +349,8 @@ void Gpu::barrier(VkImage image, VkImageAspectFlags aspect, VkImageLayout from, 
     vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
-// Where two triangles have the same depth, the one drawn first would win, and a stream has its own order. So the first
-// draw is for depth alone, and the second takes the brightest of what has that depth.
+// Of triangles at the same depth the first drawn is visible, which depends on the order of a stream. Therefore the
+// first draw writes depth only, and the second takes the brightest color at that depth.
 Picture Gpu::draw(const Push& push, VkDescriptorSet set, const Record& prepare, const Record& draw) {
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");

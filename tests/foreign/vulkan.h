@@ -1,5 +1,5 @@
 #pragma once
-// The least Vulkan that draws one picture of 512 x 512: a device, buffers, pipelines, one submission a picture.
+// A minimal Vulkan renderer for pictures of 512 x 512: a device, buffers, pipelines, one submission per picture.
 #include <vulkan/vulkan.h>
 
 #include <array>
@@ -32,7 +32,7 @@ struct Push {
 using Record = std::function<void(VkCommandBuffer)>;
 using Picture = std::vector<std::uint32_t>;  // R8G8B8A8; alpha 0 where nothing is drawn
 
-/// Errors of Vulkan are exceptions; messages of the validation layers are printed and counted.
+/// Throws on Vulkan errors; prints and counts messages of the validation layers.
 class Gpu {
   public:
     explicit Gpu(std::uint32_t& messages);
@@ -46,7 +46,7 @@ class Gpu {
     VkDescriptorSet descriptors(const Buffer& words, const Buffer& vertices, const Buffer& indices);
     VkPipeline compute(Spirv spirv);
     VkPipeline graphics(std::span<const Stage> stages, Input input);
-    /// `prepare` is recorded before the pass, `draw` twice within it.
+    /// Records `prepare` before the render pass and `draw` twice in it.
     Picture draw(const Push& push, VkDescriptorSet set, const Record& prepare, const Record& draw);
 
     PFN_vkCmdDrawMeshTasksEXT draw_mesh_tasks = nullptr;
@@ -68,5 +68,5 @@ class Gpu {
     VkImage colour_ = VK_NULL_HANDLE, depth_ = VK_NULL_HANDLE;
     VkImageView colour_view_ = VK_NULL_HANDLE, depth_view_ = VK_NULL_HANDLE;
     Buffer pixels_;
-    std::vector<std::function<void()>> undo_;  // of everything created, run backwards
+    std::vector<std::function<void()>> undo_;  // destroys everything created; run in reverse
 };

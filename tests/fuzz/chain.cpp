@@ -1,5 +1,5 @@
 // The whole chain: mesh -> weld -> surface -> corner table -> rings -> every stream and file -> decode -> compare with
-// the mesh. The last bytes of an input are the options; before them lie an index list or a mesh file.
+// the mesh. An input is an index list or a mesh file, followed by bytes of options.
 
 #include <algorithm>
 #include <array>
@@ -32,13 +32,13 @@ struct Options {
     Weld welding() const { return static_cast<Weld>(byte[0] % 3); }
     bool wart_skipping() const { return (byte[0] & 0x80) == 0; }
     bool keep_order() const { return (byte[0] & 0x60) != 0; }
-    /// In half of the cases, the file of one format has vertex streams: encoding them is slow.
+    /// Half of the inputs have vertex streams in the file of one format, because encoding them is slow.
     bool compressed(Format format) const { return byte[4] % 8 == static_cast<std::uint32_t>(format); }
     bool one_per_shell() const { return (byte[0] & 0x10) != 0; }
-    /// Vertices of one position are joined, and keep their attributes as copies.
+    /// Whether vertices of one position are joined, as copies with their own attributes.
     bool joins() const { return (byte[8] & 0x40) == 0; }
     double tolerance() const { return std::array{0.0, 0.0, 1e-3, 3.0}[byte[6] >> 6 & 3]; }
-    /// Zero runs everything; an input that leaves steps out runs faster.
+    /// Zero bits run all steps; an input may leave out steps to run faster.
     bool wants(std::uint32_t step) const { return (byte[8] >> step & 1) == 0; }
     RingOptions ring(const CornerTable& table) const {
         RingOptions out{
@@ -56,12 +56,12 @@ struct Options {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The rotation that comes first.
+/// The lexicographically smallest rotation.
 Triangle rotated(const Triangle& t) {
     return std::min({t, Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}});
 }
 
-/// The triangles that are not degenerate, rotated, their vertices replaced by id(vertex).
+/// The triangles that are not degenerate, with vertices replaced by id(vertex), rotated.
 template <class Id>
 std::vector<Triangle> triangles_of(std::span<const std::uint32_t> indices, Id id) {
     std::vector<Triangle> out;
@@ -81,10 +81,11 @@ std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
     return triangles;
 }
 
-/// Numbers the values that vertices have in all attributes, or in the first ones, the same for several meshes.
+/// Numbers for the values of vertices in all attributes or the first ones; equal values of several meshes have one
+/// number.
 class ValueNumbers {
   public:
-    /// With `welding`, -0 is 0 in POSITION.
+    /// `welding`: -0 equals 0 in POSITION.
     explicit ValueNumbers(std::size_t attributes = SIZE_MAX, bool welding = false)
         : attributes_(attributes), welding_(welding) {}
 
@@ -102,7 +103,7 @@ class ValueNumbers {
         return numbers_.try_emplace(std::move(value), static_cast<std::uint32_t>(numbers_.size())).first->second;
     }
 
-    /// The multiset of the mesh's oriented triangles, by the values at their corners.
+    /// The sorted oriented triangles of the mesh, by the numbers of the values at their corners.
     std::vector<Triangle> triangles(const Mesh& mesh) {
         return sorted(triangles_of(mesh.indices, [&](std::uint32_t v) { return (*this)(mesh, v); }));
     }
@@ -134,10 +135,11 @@ Mesh welded(const Mesh& mesh, Weld mode) {
 struct Subject {
     Mesh mesh;
     Surface surface;
-    Mesh whole;  ///< the surface; only its positions
+    Mesh whole;  ///< the surface, with positions only
 };
 
-/// The surface keeps every triangle, and every corner its values, but for positions that a tolerance moves.
+/// Finds the surface of a mesh. Checks that it keeps every triangle and the values at every corner, except positions
+/// that are moved within a tolerance.
 Subject joined(Mesh mesh, const Options& options) {
     Subject out{std::move(mesh), {}, {}};
     out.surface.vertex_count = out.mesh.vertex_count;
@@ -182,7 +184,8 @@ void check_table(const Mesh& mesh, const CornerTable& table) {
     }
 }
 
-/// A stream of the surface as the encoder gave it: valid, decoded to the same triangles, and so is the file made of it.
+/// Checks that an encoded stream of the surface is valid and decodes to its triangles, and likewise the file made of
+/// it.
 void check_stream(const Subject& subject, Encoded encoded, const Options& options) {
     const Mesh &mesh = subject.mesh, &whole = subject.whole;
     const std::optional<Words> indices = use_stream(encoded.format, encoded.words);
@@ -217,7 +220,7 @@ void check_stream(const Subject& subject, Encoded encoded, const Options& option
     if (!options.keep_order()) return;
     REQUIRE(original);
     REQUIRE(original->vertex_count == mesh.vertex_count && same_attributes(*original, mesh));
-    std::vector<std::uint32_t> kept;  // the input's index list, but for degenerate triangles
+    std::vector<std::uint32_t> kept;  // the input's indices without degenerate triangles
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const std::uint32_t* t = mesh.indices.data() + i;
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) kept.insert(kept.end(), t, t + 3);
@@ -246,7 +249,7 @@ void check_packed(const Subject& subject, const CornerTable& table, const Option
 
 void check_lr(const Subject& subject, const CornerTable& table, const Options& options, Format kind) {
     RingOptions ring = options.ring(table);
-    ring.start = kNullCorner;  // of the table before its fans are split
+    ring.start = kNullCorner;  // it is a corner of the table before fans are split
     const std::array<std::uint32_t, 2> periods{0, options.byte[1]};
     Result<EncodedLr> lr = kind == Format::lr
                                ? encode_lr(table, ring, options.optimize(kLrRingCost), options.wart_skipping())
@@ -255,7 +258,7 @@ void check_lr(const Subject& subject, const CornerTable& table, const Options& o
     check_stream(subject, as_encoded(std::move(*lr)), options);
 }
 
-/// The triangles that a structure holds, by its operators.
+/// The triangles of a structure, found by its operators.
 template <class View>
 std::vector<Triangle> triangles_by_operators(const View& view, auto&& vertex_of) {
     std::vector<Triangle> out;
@@ -323,8 +326,8 @@ void append(std::vector<std::byte>& data, T value) {
     data.insert(data.end(), bytes.begin(), bytes.end());
 }
 
-/// Bytes as an index list of one or two bytes an index. Several copies, each with its vertices a little further on,
-/// make meshes of many blocks from few bytes.
+/// Reads bytes as an index list of one or two bytes per index. The list is repeated several times with shifted
+/// vertices, which makes meshes of many blocks from few bytes.
 Mesh mesh_of_indices(std::span<const std::byte> bytes, const Options& options) {
     const std::uint32_t width = 1 + (options.byte[6] & 1), copies = 1 + (options.byte[6] >> 1) % 16;
     const std::uint32_t shift = options.byte[7];
@@ -339,10 +342,10 @@ Mesh mesh_of_indices(std::span<const std::byte> bytes, const Options& options) {
             }
         }
     }
-    mesh.vertex_count += options.byte[1] % 3;  // of no triangle
+    mesh.vertex_count += options.byte[1] % 3;  // unused vertices
     Attribute position{"POSITION", ComponentType::f32, 3, false, {}}, color{"COLOR_0", ComponentType::u8, 3, true, {}};
     Attribute weight{"weight", ComponentType::f64, 1, false, {}};
-    const std::uint32_t period = options.byte[5] % 4 == 0 ? 1 + options.byte[5] : UINT32_MAX;  // equal positions
+    const std::uint32_t period = options.byte[5] % 4 == 0 ? 1 + options.byte[5] : UINT32_MAX;  // positions repeat
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
         const auto x = static_cast<float>(v % period);
         for (const float value : {x, x * x, x / 3.0F}) append(position.data, value);
@@ -365,7 +368,7 @@ bool run_indices(std::span<const std::byte> bytes) {
 bool run_file(std::span<const std::byte> bytes) {
     if (bytes.size() < kOptionBytes) return false;
     const Options options(bytes.last(kOptionBytes));
-    const auto format = static_cast<MeshFormat>(options.byte[7] % 6);  // any at first
+    const auto format = static_cast<MeshFormat>(options.byte[7] % 6);  // 0 is any format
     const std::vector<std::byte> file(bytes.begin(), bytes.end() - kOptionBytes);
     const Result<Mesh> mesh = read_mesh(file, {}, {.format = format, .max_bytes = 1 << 20});
     if (!mesh) return false;

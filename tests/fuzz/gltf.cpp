@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::string_view kMarker = ";base64,";
 
-/// Decodes up to the first character that is no digit, and says where that is.
+/// Decodes up to the first character that is no base64 digit; sets `end` to its position.
 Bytes decode_base64(std::string_view text, std::size_t& end) {
     Bytes out;
     std::uint32_t bits = 0, held = 0;
@@ -42,7 +42,7 @@ std::string encode_base64(const Bytes& bytes) {
 void mutate_buffer(Bytes& buffer, std::size_t max_size, Random& random) {
     const std::size_t size = buffer.size();
     mutate_bytes(buffer, max_size);
-    if (random_below(random, 4) != 0) buffer.resize(size);  // the JSON says its length
+    if (random_below(random, 4) != 0) buffer.resize(size);  // mostly the length in the JSON
 }
 
 void mutate_json(Bytes& json, std::size_t max_size, Random& random) {
@@ -70,7 +70,7 @@ void put_word(Bytes& bytes, std::uint32_t word) {
     for (std::uint32_t shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(word >> shift));
 }
 
-/// A piece of `bytes`, cut where they end.
+/// The bytes [at, at + size), cut at the end of `bytes`.
 Bytes piece(const Bytes& bytes, std::size_t at, std::size_t size) {
     const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size()));
     const auto left = static_cast<std::size_t>(bytes.end() - begin);

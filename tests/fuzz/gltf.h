@@ -3,14 +3,14 @@
 
 namespace lacedring::fuzz {
 
-/// Mutates the JSON or the buffer of a glTF file: a GLB's chunks keep right lengths, an embedded buffer is mutated
-/// behind its base64.
+/// Mutates the JSON or the buffer of a glTF file. A GLB's chunks keep valid lengths; an embedded buffer is decoded from
+/// base64, mutated and encoded again.
 void mutate_gltf(Bytes& bytes, std::size_t max_size, Random& random);
 
-/// The same, and of a packed scene (docs/gltf) what is inside its document, streams and coded views.
+/// The same; in a packed scene (docs/gltf) it also mutates the contents of its document, streams and coded views.
 void mutate_scene(Bytes& bytes, std::size_t max_size, Random& random);
 
-/// The contents of a GLB's two chunks. Both are empty if the bytes do not begin as a GLB does.
+/// The contents of a GLB's two chunks. Both are empty if the bytes do not begin like a GLB.
 struct GlbChunks {
     Bytes json, bin;
 };

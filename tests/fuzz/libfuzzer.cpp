@@ -1,5 +1,5 @@
-// libFuzzer's entry points. The program's own name chooses the target: bin/fuzz_lean is a link to bin/fuzz.
-// --cpu_seconds=N ends a run after so much time of the processor, however busy the machine is.
+// libFuzzer's entry points. The name of the program selects the target: bin/fuzz_lean is a link to bin/fuzz.
+// --cpu_seconds=N ends a run after N seconds of processor time.
 
 #include <algorithm>
 #include <csignal>
@@ -20,7 +20,7 @@ double used_seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Inputs by what became of them, printed at the end: a target that accepts hardly anything tests little.
+/// Counts accepted and refused inputs, printed at the end: a target that accepts few inputs tests little.
 struct Counts {
     unsigned long accepted = 0, all = 0;
     void print() const {
@@ -35,7 +35,7 @@ double most_seconds = 0;  // no limit
 }  // namespace
 
 void lacedring::fuzz::mutate_bytes(Bytes& bytes, std::size_t max_size) {
-    if (max_size == 0) return bytes.clear();  // LLVMFuzzerMutate wants room
+    if (max_size == 0) return bytes.clear();  // LLVMFuzzerMutate needs room
     const std::size_t size = std::min(bytes.size(), max_size);
     bytes.resize(max_size);
     bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), size, max_size));
@@ -56,14 +56,14 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     std::exit(2);
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {  // data is exactly sized
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {  // data has exactly its size
     ++counts.all;
     if (target->run(std::as_bytes(std::span(data, size)))) ++counts.accepted;
     constexpr unsigned long often = 16;
     if (most_seconds > 0 && counts.all % often == 0 && used_seconds() > most_seconds) {
         counts.print();
         most_seconds = 0;
-        std::raise(SIGUSR1);  // libFuzzer's sign to end: it does not run destructors then
+        std::raise(SIGUSR1);  // makes libFuzzer exit, without destructors
     }
     return 0;
 }

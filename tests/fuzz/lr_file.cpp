@@ -1,4 +1,4 @@
-// The .lr file: mutates sections, lays them out again and mends every checksum (docs/lr-file.md).
+// The target for .lr files: mutates sections, writes them again with valid offsets and checksums (docs/lr-file.md).
 
 #include "lacedring/lr_file.hpp"
 
@@ -31,12 +31,12 @@ struct Section {
 constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4, kVertices = 8, kSeams = 9,
                         kPerCopy = 1U << 18;
 
-/// Of a section's kind; the kinds above, and unknown ones, are taken for lean.
+/// The format of a section's kind; lean for kinds that are no stream.
 Format format_of(std::uint32_t kind) {
     return kind == 5 ? Format::lr : kind == 6 ? Format::lr_compact : kind == 7 ? Format::packed : Format::lean;
 }
 
-/// Byte by byte, a vertex stream included.
+/// Whether both attributes are equal byte by byte, vertex streams included.
 template <class Other>
 bool same_attribute(const Other& a, const LrAttribute& b) {
     return a.name == b.name && a.type == b.type && a.components == b.components && a.normalized == b.normalized &&
@@ -44,7 +44,8 @@ bool same_attribute(const Other& a, const LrAttribute& b) {
            std::ranges::equal(a.words, b.words);
 }
 
-/// The surface of a mesh with seams is what its connectivity alone decodes to, and both are encoded again.
+/// Checks that the surface of a mesh with seams is the one that the connectivity decodes to, and encodes the mesh
+/// again.
 void check_seams(const LrFile& file, const Mesh& mesh, const Surface& surface) {
     const StreamView stream = view_stream(file.words).value();
     const std::vector<std::uint32_t> slots = slot_triangles(stream);
@@ -77,10 +78,11 @@ void check_seams(const LrFile& file, const Mesh& mesh, const Surface& surface) {
     REQUIRE(original.indices == mesh.indices && same_attributes(original, mesh));
 }
 
-constexpr std::uint64_t kMostStored = 64 << 20;  // of bytes in memory: larger ones are slow
+// Larger files in storage form are slow.
+constexpr std::uint64_t kMostStored = 64 << 20;
 
 bool run(std::span<const std::byte> bytes) {
-    // The view that a memory-mapped file is used by needs an aligned address: operator new's is.
+    // view_lr_file needs an aligned address; memory of operator new is aligned.
     Result<LrFileView> in_place = view_lr_file(bytes);
     const Result<LrFile> file = parse_lr(bytes, kMostStored);
     const Result<LrContents> listed = list_lr(bytes);
@@ -135,7 +137,7 @@ bool run(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// Header and sections, as far as the bytes have them.
+/// The header and the sections, cut at the end of the bytes.
 std::vector<Section> take_apart(const Bytes& bytes, Header& header) {
     std::vector<Section> out;
     std::memcpy(&header, bytes.data(), sizeof header);
@@ -190,7 +192,7 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
         }
         case kVertexOrder:
         case kCornerOrder:
-            if (contents.size() >= 8 && random_below(random, 2) == 0) {  // still a permutation
+            if (contents.size() >= 8 && random_below(random, 2) == 0) {  // keeps it a permutation
                 const auto word = [&] {
                     return contents.begin() + std::ptrdiff_t{4} * random_below(random, contents.size() / 4);
                 };
@@ -219,8 +221,8 @@ void mutate_section(Section& section, std::size_t room, Random& random) {
     }
 }
 
-/// Mutates the section of seams, and gives attributes and the order of vertices as many entries as there are copies.
-/// False if there is none that goes with the connectivity.
+/// Mutates the section of seams, and resizes attributes and vertex order to its number of copies. False if the file has
+/// no seams that fit its connectivity.
 bool mutate_seams_of(Header& header, std::vector<Section>& sections, Random& random) {
     const auto found = std::ranges::find(sections, kSeams, [](const Section& s) { return s.entry.kind; });
     const auto words_at = [](const Section& s) { return words_of(s.contents); };

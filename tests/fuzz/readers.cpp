@@ -1,4 +1,4 @@
-// The readers of mesh files. What they accept is written in every format and read back.
+// The targets for readers of mesh files. Accepted meshes are written in every format and read again.
 
 #include <algorithm>
 #include <string_view>
@@ -13,13 +13,14 @@
 namespace lacedring::fuzz {
 namespace {
 
-/// Little enough to stay fast. A small file can place its meshes very often.
+/// A limit that keeps targets fast: a small file can place its meshes very often.
 constexpr std::uint64_t kMaxBytes = 8 << 20;
 
-/// Each primitive of what read_mesh accepts is a mesh; placed, they have the joined mesh's triangles.
+/// Checks that the primitives, placed, have the triangles of the mesh that read_mesh returns.
 void check_primitives(std::span<const std::byte> bytes, const Mesh& joined, std::size_t count) {
     const Result<PrimitiveList> list = read_primitives(bytes, {}, {.format = MeshFormat::gltf, .max_bytes = kMaxBytes});
-    if (!list) {  // they have attributes that the joined mesh has not
+    // Primitives may exceed the limit with attributes that the joined mesh does not have.
+    if (!list) {
         REQUIRE(list.error().code != ErrorCode::malformed || !list.error().message.ends_with("has no triangles"));
         return;
     }
@@ -38,7 +39,7 @@ void check_primitives(std::span<const std::byte> bytes, const Mesh& joined, std:
     REQUIRE(sum == joined.triangle_count());
 }
 
-/// Read with its materials, it is the same triangles, each with a material, and with attributes of them all.
+/// Checks that reading with materials gives the same triangles, each with a material.
 void check_materials(std::span<const std::byte> bytes, const Mesh& joined) {
     Materials materials;
     const Result<Mesh> mesh =
@@ -58,7 +59,7 @@ template <MeshFormat format>
 bool run(std::span<const std::byte> bytes) {
     ReadReport report;
     const Result<Mesh> mesh = read_mesh(bytes, {}, {.format = format, .max_bytes = kMaxBytes}, &report);
-    REQUIRE(report.files.empty());  // no name, no folder to look in
+    REQUIRE(report.files.empty());  // without a path no other file is opened
     if (!mesh) {
         check_message(mesh.error());
         return false;

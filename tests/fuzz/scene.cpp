@@ -1,4 +1,4 @@
-// Scenes: unpacks any bytes, and packs them. What is accepted is written, read and unpacked again.
+// The target for scenes: unpacks and packs any bytes. Accepted scenes are written, read and unpacked again.
 
 #include "lacedring/scene.hpp"
 
@@ -11,10 +11,10 @@
 namespace lacedring::fuzz {
 namespace {
 
-/// Little enough to stay fast. What comes of it may take more: it is not what is tested.
+/// kLimits keeps the target fast. The results may be larger: kAgain is for them.
 constexpr ReadOptions kLimits{.max_bytes = 8 << 20}, kAgain{.max_bytes = std::uint64_t{1} << 30};
 
-/// Unpacking what was made of it has nothing to say but that it is large.
+/// Checks an unpacked scene: unpacking and reading it fails only for its size.
 void check_unpacked(const SceneFile& scene) {
     const Result<Bytes> glb = make_glb_file(scene);
     REQUIRE(glb);
@@ -25,7 +25,7 @@ void check_unpacked(const SceneFile& scene) {
     if (mesh) {
         check_mesh(*mesh);
     } else {
-        check_message(mesh.error());  // not all is looked at in what is kept
+        check_message(mesh.error());  // parts that unpacking keeps unread may be invalid
     }
 }
 
@@ -39,7 +39,7 @@ bool try_unpack(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// The options are of the input's length, so that a mutation reaches all of them.
+/// The input's length selects the options, so that mutations reach all of them.
 bool try_pack(std::span<const std::byte> bytes) {
     PackOptions options;
     if (bytes.size() % 2 == 0) options.bits = {};

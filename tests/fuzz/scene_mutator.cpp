@@ -1,5 +1,5 @@
-// Mutates packed scenes from inside: the document, streams, part codes and coded views, each taken out of what it is
-// packed in, changed, and packed again.
+// Mutates the contents of packed scenes: decompresses the document, a stream, part codes or a coded view, changes it
+// and compresses it again.
 
 #include <algorithm>
 #include <cstring>
@@ -23,9 +23,10 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kName = "LACEDRING_mesh_compression";
-constexpr std::uint64_t kMost = 1 << 20;  // bytes that anything is inflated to
+// Limit of inflated bytes.
+constexpr std::uint64_t kMost = 1 << 20;
 
-/// The member, where there is one: of a value that need not be an object or an array.
+/// The member of a value that may not be an object or array, or null.
 template <class Key>
 ordered_json* member(ordered_json* value, Key key) {
     if constexpr (std::is_integral_v<Key>) {
@@ -52,16 +53,16 @@ Bytes deflated(const Bytes& bytes) {
     return detail::deflate_bytes(bytes).value();
 }
 
-/// Bytes of the binary chunk, and the object that says where they lie.
+/// Bytes of the binary chunk, and the JSON object with their position.
 struct Place {
     ordered_json* object;
     Bytes bytes;
 };
 
-/// A packed GLB, taken apart.
+/// The parts of a packed GLB.
 class Scene {
   public:
-    /// Nothing: it is none.
+    /// Nothing if the bytes are no packed GLB.
     static std::optional<Scene> open(const Bytes& glb) {
         const GlbChunks chunks = split_glb(glb);
         Scene out;
@@ -123,7 +124,7 @@ class Scene {
         return Bytes(from, from + static_cast<std::ptrdiff_t>(size));
     }
 
-    /// All that the document has in the binary chunk.
+    /// Finds everything in the binary chunk that the document refers to.
     void find_places() {
         ordered_json* views = member(&document(), "bufferViews");
         for (std::size_t i = 0; views != nullptr && i < views->size(); ++i) {
@@ -134,7 +135,7 @@ class Scene {
         }
     }
 
-    /// Puts it there again.
+    /// Writes the binary chunk anew.
     void lay_out() {
         if (places_.empty()) return;
         bin_.clear();
@@ -157,7 +158,7 @@ class Scene {
         text_ = std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     }
 
-    /// Changes a number somewhere below the value, leaves a member out, or has an element twice.
+    /// Changes a random number within the value, removes a member, or repeats an element.
     static void mutate_number(ordered_json& value, Random& random) {
         ordered_json* at = &value;
         while (at->is_structured() && !at->empty()) {
@@ -212,7 +213,7 @@ class Scene {
         return view == nullptr || found == places_.end() ? nullptr : &*found;
     }
 
-    /// What is inflated keeps its size, mostly.
+    /// Mutates inflated bytes, mostly keeping their size.
     static void mutate_packed(Bytes& bytes) {
         Bytes contents = inflated(bytes);
         mutate_bytes(contents, contents.size() + 16);
@@ -231,7 +232,7 @@ class Scene {
             mutate_bytes(lengths, count);
             lengths.resize(count);
             for (std::byte& length : lengths) length &= std::byte{31};
-            tail.resize(tail.size() + count);  // too many bits are refused, but not before all are decoded
+            tail.resize(tail.size() + count);  // trailing bits are refused after everything is decoded
         } else {
             const std::size_t count = tail.size();
             mutate_bytes(tail, count);
@@ -245,7 +246,7 @@ class Scene {
         bytes.insert(bytes.end(), tail.begin(), tail.end());
     }
 
-    /// The stream's parts as the primitives of a plain document have them: their sets and index accessors.
+    /// Finds the stream's parts in the primitives of the document: their sets and index accessors.
     std::vector<std::size_t> find_parts(std::size_t stream, ordered_json* sets,
                                         std::vector<std::uint32_t>& set_of_part) {
         std::vector<std::size_t> indices;
@@ -269,7 +270,7 @@ class Scene {
         return indices;
     }
 
-    /// Gives the stream as many part codes as its file has triangles, and accessors the counts that it has.
+    /// Makes as many part codes as the stream's file has triangles, and sets the counts of accessors.
     void mend(std::size_t number, const Place& file, Place* parts) {
         ordered_json* sets = member(member(member(extension_in(&document()), "streams"), number), "sets");
         const Result<LrFile> read = parse_lr(file.bytes);
@@ -304,7 +305,7 @@ class Scene {
 
     ordered_json outer_, inner_;
     std::optional<std::size_t> packed_view_;
-    std::optional<std::string> text_;  ///< the document, if it need not be valid
+    std::optional<std::string> text_;  ///< the document as text, which may be invalid JSON
     std::vector<Place> places_;
     Bytes bin_;
 };

@@ -1,5 +1,5 @@
-// Mutates seam sections so that they may stay valid: takes them apart into their blocks (docs/seams-format.md), lays
-// them out again, and looks for the length and the number of copies that a changed block has.
+// Mutates seam sections so that they may stay valid: splits them into blocks (docs/seams-format.md), joins them again,
+// and searches the length and the number of copies of each changed block.
 
 #include <algorithm>
 #include <bit>
@@ -13,14 +13,14 @@
 namespace lacedring::fuzz {
 namespace {
 
-constexpr std::uint32_t kMostLength[] = {20, 20}, kMostCopies[] = {17, 11};  // bits of directory fields
+constexpr std::uint32_t kMostLength[] = {20, 20}, kMostCopies[] = {17, 11};  // bits of the directories' fields
 
 struct Block {
     std::vector<bool> bits;
     std::uint32_t copies = 0;
 };
 
-/// Bits of words, from a place on; zeros behind the end.
+/// Reads bits of words from a position; bits behind the end are 0.
 struct Bits {
     std::span<const std::uint32_t> words;
     std::size_t at;
@@ -60,7 +60,7 @@ class SeamSection {
         }
     }
 
-    /// Sizes, widths, directories and checksum fit the blocks.
+    /// The section, whose sizes, widths, directories and checksum fit the blocks.
     Words words() const {
         Words out(head_, head_ + 8);
         std::uint32_t widths = 0, homes = vertices_;
@@ -109,7 +109,7 @@ class SeamSection {
         return out;
     }
 
-    /// Changes bits of a block, the table, or the number of copies of a block.
+    /// Changes bits of a block or the table, or a block's number of copies.
     void mutate(Random& random) {
         if (random_below(random, 16) == 0) head_[4 + random_below(random, 4)] ^= 1U << random_below(random, 32);
         std::vector<Block>& blocks = blocks_[random_below(random, 4) == 0 ? 0 : 1];
@@ -134,7 +134,7 @@ class SeamSection {
         }
     }
 
-    /// Tries lengths and numbers of copies of the first block that is wrong, until it is right; then of the next one.
+    /// Searches a length and a number of copies that make the first invalid block valid; continues with the next.
     void mend() {
         int tries = 300;
         for (Place wrong = first_wrong(); wrong < kAllRight;) {
@@ -158,13 +158,13 @@ class SeamSection {
     }
 
   private:
-    using Place = std::pair<std::uint32_t, std::uint64_t>;  // of a block: its kind and number
+    using Place = std::pair<std::uint32_t, std::uint64_t>;  ///< kind and number of a block
     static constexpr Place kAllRight{2, 0};
 
     /// 0, 1, -1, 2, -2, ...
     static int signed_of(int n) { return n % 2 == 0 ? -n / 2 : (n + 1) / 2; }
 
-    /// Also where nothing can be mended.
+    /// The place of the first error, also of one that cannot be mended.
     Place first_wrong() const {
         const Words section = words();
         const auto triangles = static_cast<std::uint32_t>(triangles_.size() / 3);

@@ -1,4 +1,4 @@
-// Streams in storage form: what C++ restores and what C decodes straight to arrays.
+// The target for streams in storage form: compares what C++ restores with the arrays that C decodes.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,8 @@
 namespace lacedring::fuzz {
 namespace {
 
-constexpr std::size_t kHead = 5;  // vertices, triangles, and the words of the first three parts
+// Words of the head: vertices, triangles, and the lengths of the first three parts.
+constexpr std::size_t kHead = 5;
 constexpr std::uint32_t kMostElements = 4096;
 
 /// The parts of an input: a packed stream, positions, another attribute, seams.
@@ -43,13 +44,13 @@ struct Parts {
     }
 };
 
-/// The triangles of the packed stream; where it is refused, others. `accepted`: it was not.
+/// The triangles of the packed stream, or others if it is refused. Sets `accepted`.
 Words triangles_of_parts(const Parts& parts, bool& accepted) {
     const storage::PackedLimits limits{parts.vertices, parts.triangles};
     const auto in_c = test::triangles_in_c(parts.words[0], parts.vertices, parts.triangles);
     const auto steps = storage::StoredPacked::read(parts.words[0], limits);
     if (!steps) check_message(steps.error());
-    // C refuses triangles with a vertex twice at once; C++ by validating the stream.
+    // C refuses degenerate triangles while decoding, C++ when it validates the stream.
     if (const Words own = steps ? steps->triangles() : Words(); !own.empty() && in_c) REQUIRE(in_c == own);
     if (const auto restored = storage::restore_packed(parts.words[0], limits)) {
         if (use_stream(Format::packed, *restored)) REQUIRE(in_c.has_value());
@@ -65,7 +66,7 @@ Words triangles_of_parts(const Parts& parts, bool& accepted) {
     return strip;
 }
 
-/// What C decodes of a vertex stream; C++ restores no other integers, and nothing that C refuses.
+/// Decodes a vertex stream in C. Checks that C++ restores the same integers, and nothing that C refuses.
 std::optional<test::AttributeInC> use_attribute(const Words& stored, std::span<const std::uint32_t> triangles,
                                                 std::uint32_t vertices, const storage::VertexPlaces& places) {
     constexpr std::uint64_t kMostWords = 1 << 18;
@@ -112,7 +113,7 @@ bool run_stored(std::span<const std::byte> bytes) {
     return accepted || positions || attribute;
 }
 
-/// Mutates one of the parts; the others, and where they begin, mostly stay.
+/// Mutates one part; the others mostly keep their contents and positions.
 void mutate_stored(Bytes& bytes, std::size_t max_size, Random& random) {
     const Words words = words_of(bytes);
     if (words.size() < kHead || random_below(random, 32) == 0) return mutate_bytes(bytes, max_size);

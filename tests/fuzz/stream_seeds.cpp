@@ -1,5 +1,5 @@
-// Writes small valid streams, .lr files and inputs of the chain: fuzz_stream_seeds FOLDER makes FOLDER/lean/NAME, ...
-// With scenes behind it, these are packed.
+// Writes seeds: fuzz_stream_seeds FOLDER writes small valid streams, .lr files and inputs of the chain target to
+// FOLDER/lean/NAME, ...; fuzz_stream_seeds FOLDER SCENE... writes packed scenes.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ std::filesystem::path folder;
 bool all_written = true;
 
 void write(const char* target, const std::string& name, std::span<const std::byte> bytes) {
-    if (bytes.size() > 8192) return;  // scripts/fuzz would cut it off
+    if (bytes.size() > 8192) return;  // the limit of scripts/fuzz
     std::filesystem::create_directories(folder / target);
     const std::span<const std::byte> parts[] = {bytes};
     all_written = write_file(folder / target / name, parts).has_value() && all_written;
@@ -38,7 +38,7 @@ void write(const char* target, const std::string& name, std::span<const std::byt
 
 void write_stream(const char* target, const std::string& name, const Mesh& mesh, const Encoded& encoded) {
     write(target, name, encoded.bytes());
-    if (encoded.format == Format::packed && mesh.triangle_count() > 150) {  // fewer stay resident
+    if (encoded.format == Format::packed && mesh.triangle_count() > 150) {  // fewer triangles have no storage form
         const LrFile file = make_lr_file(mesh, encoded, false);
         write("lr_file", std::string(target) + "-" + name + "-stored", serialize_lr(file, LrForm::stored));
     }
@@ -56,7 +56,7 @@ void write_stream(const char* target, const std::string& name, const Mesh& mesh,
         write("lr_file", std::string(target) + "-" + name + "-stored-seams", serialize_lr(*seams, LrForm::stored));
 }
 
-/// The section of a mesh that is cut into charts: those triangles apart that are so many apart.
+/// Writes the seam section of a mesh cut into charts of `chart` consecutive triangles.
 void write_seams(const std::string& name, const Encoded& encoded, std::uint32_t vertices, std::uint32_t chart) {
     const std::vector<std::uint32_t> triangles = slot_triangles(view_stream(encoded.words).value());
     std::vector<std::uint32_t> words{vertices, static_cast<std::uint32_t>(triangles.size() / 3)}, copies;
@@ -103,14 +103,14 @@ void write_seeds(std::string name, const Mesh& mesh, std::uint32_t number) {
         write("chain_indices", name, input);
         if (number % 4 != 1) return;
         input[input.size() - 9] =
-            static_cast<std::byte>(number % 8 == 1 ? 0x60 : 0x0c);                // not welded, in its order or not
-        input[input.size() - 4] = static_cast<std::byte>(4 * (2 + number % 16));  // positions repeat
+            static_cast<std::byte>(number % 8 == 1 ? 0x60 : 0x0c);  // not joined; with or without its order
+        input[input.size() - 4] = static_cast<std::byte>(4 * (2 + number % 16));       // positions repeat
         input[input.size() - 3] = static_cast<std::byte>(number % 3 == 0 ? 0xc0 : 0);  // a tolerance
         write("chain_indices", name + "-cut", input);
     }
 }
 
-/// Vertex streams of several sizes; value(vertex, component) are the values.
+/// Writes vertex streams of several sizes with the values value(vertex, component).
 template <class T, class Value>
 void write_vertices(const char* name, ComponentType type, std::uint8_t components, const VertexOptions& options,
                     Value value) {
@@ -145,7 +145,7 @@ void write_vertex_seeds() {
     write_vertices<std::int16_t>("i16", ComponentType::i16, 2, {}, [&](auto v, auto c) { return 3000 * wave(v, c); });
     write_vertices<std::uint32_t>("u32", ComponentType::u32, 1, {}, [](auto v, auto) { return v / 3; });
     write_vertices<std::uint32_t>("u32-noise", ComponentType::u32, 1, {}, noise);
-    // Any integer is in the range of these.
+    // These types hold any integer.
     write_vertices<std::int32_t>("i32", ComponentType::i32, 3, {},
                                  [&](auto v, auto c) { return (v % 64 < 2 ? 0x7fffffff : 1e6) * wave(60 * v, c); });
     write_vertices<double>("doubles-noise", ComponentType::f64, 1, {}, wave);
@@ -159,7 +159,7 @@ void write_vertex_seeds() {
                            [&](auto v, auto c) { return std::round(wave(v, c) * 4096) / 4096; });
 }
 
-/// The sections of a cut mesh in storage form, one behind the other (stored.cpp), with normals or texture coordinates.
+/// Writes the sections of a cut mesh in storage form as an input of stored.cpp, with normals or texture coordinates.
 void write_stored(const std::string& name, const Mesh& mesh, bool normals) {
     const Result<Encoded> encoded = encode(mesh.indices, mesh.vertex_count, {.format = Format::packed, .effort = 0});
     all_written = encoded.has_value() && all_written;
@@ -214,7 +214,7 @@ void write_stored(const std::string& name, const Mesh& mesh, bool normals) {
     write("stored", name, std::as_bytes(std::span(words)));
 }
 
-/// A file in storage form whose normals are differences from the surface's.
+/// Writes a file in storage form whose normals are differences from the surface's.
 void write_stored_normals() {
     Mesh mesh = generate("sphere", 600).value();
     mesh.attributes.push_back({"NORMAL", ComponentType::f32, 3, false, mesh.attributes[0].data});
@@ -226,7 +226,7 @@ void write_stored_normals() {
     write("lr_file", "normals-stored", serialize_lr(file, LrForm::stored));
 }
 
-/// Packs the scene in every way: FOLDER/scene/NAME-... .
+/// Packs a scene with all options, to FOLDER/scene/NAME-...
 void write_packed_scenes(const std::filesystem::path& source) {
     const auto file = MappedFile::open(source);
     all_written = file.has_value() && all_written;
@@ -247,7 +247,6 @@ void write_packed_scenes(const std::filesystem::path& source) {
 
 }  // namespace
 
-/// fuzz_stream_seeds FOLDER [SCENE...]: the streams, or the scenes packed.
 int main(int argc, char** argv) {
     if (argc < 2) return 2;
     folder = argv[1];
@@ -258,7 +257,7 @@ int main(int argc, char** argv) {
         if (named.mesh.triangle_count() <= 200) write_seeds(named.name, named.mesh, number);
         ++number;
     }
-    for (const char* kind : {"blob", "terrain", "parts", "soup", "genus"}) {  // of several blocks, and groups of blocks
+    for (const char* kind : {"blob", "terrain", "parts", "soup", "genus"}) {  // of several blocks and groups
         write_seeds(std::string(kind) + "-600", generate(kind, 600).value(), number++);
         write_seeds(std::string(kind) + "-4600", generate(kind, 4600).value(), number++);
     }

@@ -18,7 +18,7 @@
 namespace lacedring::fuzz {
 namespace {
 
-/// Sizes from the number of words, and triangles from the slots that are not degenerate (docs/lean-format.md).
+/// Sets the sizes by the number of words, and the triangles by the slots that are not degenerate (docs/lean-format.md).
 void mend_lean(Words& words) {
     const std::uint64_t rings2 = words[LR_LEAN_WORD_RINGS2], rings1 = words[LR_LEAN_WORD_RINGS1];
     const std::uint64_t payload = words.size() - LR_LEAN_HEADER_WORDS, ring_slots = 2 * rings2 + rings1;
@@ -42,12 +42,12 @@ void mend_lean(Words& words) {
     words[LR_LEAN_WORD_TRIANGLES] = triangles;
 }
 
-/// The table of groups from their heads; zeros where they have to be.
+/// Sets the table of groups by their heads, and clears the bits that must be 0.
 void mend_packed(Words& words) {
     PackedView view;
     view.vertices = words[LR_PACKED_WORD_VERTICES] & ~LR_PACKED_DOUBLES;
     view.own = words[LR_PACKED_WORD_TRIANGLES];
-    if (view.own == 0 || view.own > 8 * 4 * words.size()) return;  // a turn bit each
+    if (view.own == 0 || view.own > 8 * 4 * words.size()) return;  // more than the turn bits
     if (view.doubles_word() + LR_PACKED_DOUBLES_WORDS > words.size()) return;
     if ((words[LR_PACKED_WORD_VERTICES] & LR_PACKED_DOUBLES) != 0) view.runs = words[view.doubles_word() + 1];
     if (view.groups_word() > words.size()) return;
@@ -83,7 +83,7 @@ void mend_packed(Words& words) {
     }
 }
 
-/// The entries of VO* from the number of words: nothing else says how many they are.
+/// Sets the number of VO* entries to the remaining words.
 void mend_lr(Words& words, std::uint64_t words_per_vertex) {
     constexpr std::size_t ring = 3, t0 = 4, star = 5, isolated = 6, copies = 7;
     const std::uint64_t others = kLrHeaderWords + words[ring] * words_per_vertex + std::uint64_t{6} * words[t0] +
@@ -116,7 +116,7 @@ void mend(Format kind, Words& words) {
     }
 }
 
-/// The table of a vertex stream, from the blocks; vertices that the data does not hold are left out.
+/// Sets the table of a vertex stream by its blocks; removes vertices beyond the data.
 void mend_blocks(Words& words) {
     const std::uint32_t vertices = words[1], n = words[2] & 31, field = words[2] >> 18 & 31;
     const auto group_words = [](std::uint32_t width) { return 1 + (15 * width + 31) / 32; };
@@ -202,7 +202,7 @@ void mend_blocks(Words& words) {
     words = std::move(out);
 }
 
-/// Blocks and padding, mostly, and the checksum (docs/vertex-format.md).
+/// Mends mostly the blocks and padding, and the checksum (docs/vertex-format.md).
 void mend_vertices(Words& words, Random& random) {
     constexpr std::size_t checksum = 3;
     if (words.size() < LACEDRING_VERTICES_HEADER_WORDS + 2) return;
@@ -215,7 +215,7 @@ void mend_vertices(Words& words, Random& random) {
     words[checksum] = crc32(bytes.subspan(4 * (checksum + 1)), crc32(bytes.first(4 * checksum)));
 }
 
-/// As many triangles as there are words for, vertices in range, and the checksum (docs/seams-format.md).
+/// Sets the triangles by the number of words, brings vertices in range, and sets the checksum (docs/seams-format.md).
 void mend_seams(Words& words) {
     constexpr std::size_t head = 2, most_vertices = 4096;
     if (words.size() < head + LACEDRING_SEAMS_HEADER_WORDS) return;
@@ -225,7 +225,7 @@ void mend_seams(Words& words) {
     const std::size_t corners = std::size_t{3} * words[1];
     for (std::size_t c = 0; c < corners && words[0] > 0; ++c) {
         std::uint32_t& v = words[head + c];
-        if (words[head + c / 3 * 3] != UINT32_MAX) v %= words[0];  // else an empty slot
+        if (words[head + c / 3 * 3] != UINT32_MAX) v %= words[0];  // UINT32_MAX: a slot without a triangle
     }
     const std::span<std::uint32_t> section = std::span(words).subspan(head + corners);
     section[0] = magic::kSeams;
@@ -348,7 +348,8 @@ std::optional<Words> use_stream(Format kind, std::span<const std::uint32_t> word
 
 void mutate_stream(Format kind, Words& words, std::size_t max_words, Random& random) {
     mutate_unmended(words, max_words, random);
-    if (random_below(random, 16) != 0) mend(kind, words);  // else the checks of the header are tested
+    // One in sixteen is not mended, to test the checks of the header.
+    if (random_below(random, 16) != 0) mend(kind, words);
 }
 
 bool use_vertex_stream(std::span<const std::uint32_t> words) {
@@ -393,7 +394,7 @@ bool use_seam_section(std::span<const std::uint32_t> words) {
 
 void mutate_seam_section(Words& words, std::size_t max_words, Random& random) {
     const std::size_t behind = words.size() < 2 ? SIZE_MAX : 2 + std::size_t{3} * words[1];
-    if (behind < words.size() && random_below(random, 4) != 0) {  // the blocks alone
+    if (behind < words.size() && random_below(random, 4) != 0) {  // mutates the blocks only
         const auto section = words.begin() + static_cast<std::ptrdiff_t>(behind);
         Words changed(section, words.end());
         mutate_seams(changed, std::span(words).subspan(2, behind - 2), words[0], random);

@@ -15,7 +15,7 @@
 namespace lacedring::fuzz {
 namespace {
 
-/// An array of exactly `size` words, so that a sanitizer sees what is written behind it.
+/// An array of exactly `size` words, so that a sanitizer reports writes behind it.
 struct ExactWords {
     explicit ExactWords(std::size_t count) : data(new std::uint32_t[count]()), size(count) {}
     std::span<std::uint32_t> span() const { return {data.get(), size}; }
@@ -53,13 +53,14 @@ std::vector<std::uint32_t> use_tables(const LrStreamView<View>& stream) {
         REQUIRE(ops.ring_previous(n) == v);
         seen[n] = true;
     }
-    // A header may promise any number of vertices without triangles: a few are enough.
+    // A header may have any number of unused vertices; three are enough to test.
     const std::uint32_t vertices = std::min(stream.view.vertices, stream.view.used_vertices() + 3);
     check_operators(ops, stream.view.triangle_numbers(), vertices);
     for (const std::uint32_t v : stream.copies) REQUIRE(v < stream.view.vertices);
     std::vector<std::uint32_t> indices = decode_lr(stream);
     for (const std::uint32_t v : indices) REQUIRE(v < stream.view.vertices);
-    if (stream.copies.empty()) check_triangles(indices, stream.view.vertices);  // copies may be of one vertex
+    if (stream.copies.empty())
+        check_triangles(indices, stream.view.vertices);  // a triangle may have two copies of a vertex
     return indices;
 }
 
@@ -96,10 +97,10 @@ double component(const Attribute& attribute, std::size_t vertex, std::size_t i) 
     return static_cast<double>(narrow);
 }
 
-/// The values of one vertex as a writer stores them.
+/// Changes the values of a vertex to those that a writer stores.
 using Rewrite = std::function<void(const Attribute&, std::span<double>)>;
 
-/// glTF has no numbers that are not finite, and v downwards; OBJ has v upwards.
+/// glTF has only finite numbers, and v downwards; OBJ has v upwards.
 void to_gltf(const Attribute& attribute, std::span<double> values) {
     for (double& value : values) {
         if (!std::isfinite(static_cast<float>(value))) value = 0;
@@ -112,8 +113,8 @@ void to_obj(const Attribute& attribute, std::span<double> values) {
                                                      : 1.0 - values[1];
 }
 
-/// Has `back` at every corner the values that `mesh` has, rewritten, as floats? From doubles by way of decimals, the
-/// last bit may differ; not-a-number is one value.
+/// Checks that `back` has, at every corner, the rewritten values of `mesh` as floats. All NaNs are equal, and doubles
+/// that were written as decimals may differ in the last bit.
 void check_corners(const Mesh& mesh, const Mesh& back, std::string_view name, std::size_t components,
                    const Rewrite& rewrite) {
     const Attribute* want = floats(mesh, name, components);
@@ -136,7 +137,7 @@ void check_corners(const Mesh& mesh, const Mesh& back, std::string_view name, st
     }
 }
 
-/// glTF's normals have unit length, and those that had it are kept.
+/// Checks that normals have unit length, and are unchanged if they had it before.
 void check_gltf_normals(const Mesh& mesh, const Mesh& back) {
     const Attribute *want = floats(mesh, "NORMAL", 3), *got = floats(back, "NORMAL", 3);
     if (want == nullptr) return;
@@ -241,7 +242,7 @@ std::vector<std::uint32_t> use_packed(const PackedView& view) {
         decode_packed_block(view, block, alone.span());
         REQUIRE(std::ranges::equal(alone.span(), decoded.span().subspan(std::size_t{3} * first, alone.size)));
     }
-    const std::uint32_t step = view.triangles / 512 + 1;  // each one costs up to a block
+    const std::uint32_t step = view.triangles / 512 + 1;  // decoding one costs up to a block
     for (std::uint32_t t = 0; t < view.triangles; t += step) {
         const auto triangle = decode_packed_triangle(view, t);
         const auto whole = decoded.span().subspan(std::size_t{3} * t, 3);
@@ -262,7 +263,7 @@ std::vector<std::uint32_t> use_lr(const LrStreamView<CompactLrView>& stream) {
 }
 
 void use_vertices(const VertexView& view) {
-    constexpr std::size_t kMostDecoded = 64 << 20, kMostEncoded = 1 << 16;  // encoding is slow
+    constexpr std::size_t kMostDecoded = 64 << 20, kMostEncoded = 1 << 16;  // bytes; encoding is slow
     const std::size_t size = view.decoded_bytes();
     if (size > kMostDecoded) return;
     const auto decoded = std::make_unique<std::byte[]>(size);
@@ -308,7 +309,7 @@ void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles) {
     REQUIRE(std::ranges::adjacent_find(first.span(), std::greater_equal()) == first.span().end());
     for (std::size_t c = 0; c < triangles.size(); ++c) {
         const std::uint32_t v = triangles[c], copy = copies.span()[c];
-        if (v == UINT32_MAX) {  // a slot without a triangle
+        if (v == UINT32_MAX) {  // slot without a triangle
             REQUIRE(copy == UINT32_MAX);
             continue;
         }
@@ -321,7 +322,8 @@ void use_seams(const SeamView& view, std::span<const std::uint32_t> triangles) {
         decode_seam_block(view, block, triangles.subspan(begin, alone.size), alone.span());
         REQUIRE(std::ranges::equal(alone.span(), copies.span().subspan(begin, alone.size)));
     }
-    if (view.words[1] % 8 != 0) return;  // encoding takes long: some sections, by their checksum
+    // Encoding takes long: only one section in eight, chosen by the checksum.
+    if (view.words[1] % 8 != 0) return;
     const Result<EncodedSeams> encoded = encode_seams(triangles, view.vertices, copies.span());
     REQUIRE(encoded);
     const Result<SeamView> again = validate_seams(encoded->words, triangles, view.vertices);

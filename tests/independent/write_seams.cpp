@@ -1,5 +1,5 @@
-// Writes seam sections, some of them mutated, for test_seams.py: for each, words of vertices, triangles, the section's
-// length, the triangles, the section, whether it is accepted, and if so the copies of the corners.
+// Writes seam sections, some of them mutated, for test_seams.py. Each is words: the numbers of vertices, triangles and
+// section words, the triangles, the section, whether it is accepted, and if so the copies of the corners.
 
 #include <cstdio>
 #include <cstdlib>

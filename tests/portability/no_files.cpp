@@ -1,4 +1,4 @@
-// In the place of lrio's readers, which are for Linux: there are no files.
+// Replaces lrio's readers, which are for Linux: no file can be read.
 
 #include "lacedring/mesh_files.hpp"
 

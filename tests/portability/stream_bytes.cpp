@@ -1,4 +1,4 @@
-// A line for each mesh and format: size and CRC-32 of the stream, of its orders and of the mesh itself.
+// Prints a line per mesh and format: size and CRC-32 of the stream, of its orders and of the mesh.
 
 #include <cstdio>
 

@@ -1,5 +1,5 @@
-// Preloaded into the viewer by test_faults.py: a disk that does not answer, a system without threads, a device with
-// small images, a window that does not shrink. Each is switched on by a variable of the environment.
+// Preloaded into the viewer by test_faults.py. Environment variables switch on faults: a disk that does not answer, no
+// threads, a device with small images, a window that does not shrink.
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -21,7 +21,7 @@ Function next(const char* name) {
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
-/// Does the descriptor's path end like the variable?
+/// Whether the descriptor's path ends with the variable's value.
 bool is_slow(int descriptor) {
     const char* end = std::getenv("FAULT_SLOW_FILE");
     if (end == nullptr) return false;
@@ -31,7 +31,7 @@ bool is_slow(int descriptor) {
     return size > 0 && std::string_view(path, static_cast<std::size_t>(size)).ends_with(end);
 }
 
-/// Was the function called by the C++ library? Drivers make threads as well, by other ways.
+/// Whether the C++ library is the caller. Drivers create threads without it.
 bool from_cxx_library(const void* caller) {
     Dl_info info{};
     return dladdr(caller, &info) != 0 && info.dli_fname != nullptr &&

@@ -1,5 +1,5 @@
-// Shaders compiled while the program runs: the same words as the build's, errors with their place, interfaces that must
-// not change. No device and no window.
+// Tests compiling shaders at run time: the words equal the build's, errors have a place, and interfaces must not
+// change. Needs no device and no window.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ const gpu::Shader& built_in(const std::string& name) {
     return *at;
 }
 
-/// A copy of the shaders that may be edited.
+/// A copy of the shaders to edit.
 struct Sources {
     Sources() : from(built_shaders()) {
         REQUIRE(!from.empty());
@@ -58,7 +58,7 @@ struct Sources {
     void restore(const std::string& name) const {
         fs::copy_file(from / name, folder / name, fs::copy_options::overwrite_existing);
     }
-    /// Why it is refused, by the compiler or for its interface; "" if it is not.
+    /// The error of the compiler or the interface check; "" if the shader is accepted.
     std::string refused(const std::string& name) {
         files.clear();
         const Result<std::vector<std::uint32_t>> made = compiler->compile(name, files);
@@ -72,7 +72,7 @@ struct Sources {
     std::map<std::string, Stamp> files;
 };
 
-TEST_CASE("unchanged shaders come out as the build's words") {
+TEST_CASE("unchanged shaders compile to the build's words") {
     Sources sources;
     CHECK(std::size(spirv_all) > 20);
     for (const gpu::Shader& shader : spirv_all) {
@@ -82,12 +82,12 @@ TEST_CASE("unchanged shaders come out as the build's words") {
         CHECK(std::ranges::equal(*made, shader.words));
         CHECK(gpu::check_interface(shader, *made));
     }
-    // What is included is among the files that were read, and so is what lies outside the folder.
+    INFO("included files, also of other folders, are among the files read");
     CHECK(sources.files.contains((sources.folder / "shared.h").string()));
     CHECK(sources.files.contains((sources.from.parent_path() / "lrcore/codec/packed/packed_format.h").string()));
 }
 
-TEST_CASE("errors say file and line") {
+TEST_CASE("errors have file and line, and missing includes are watched") {
     Sources sources;
     sources.edit("draw/surface.frag", "#include", "nothing at all;\n#include");
     CHECK(sources.refused("draw/surface.frag").starts_with("shaders/draw/surface.frag:4: "));
@@ -102,8 +102,7 @@ TEST_CASE("errors say file and line") {
     sources.restore("draw/surface_vertex.glsl");
     sources.edit("draw/surface.frag", "\"shaders/draw/surface.glsl\"", "\"shaders/none.glsl\"");
     CHECK(sources.refused("draw/surface.frag").starts_with("shaders/draw/surface.frag:4: "));
-    CHECK(
-        sources.files.contains((sources.folder / "none.glsl").string()));  // so that it is missed no longer once there
+    CHECK(sources.files.contains((sources.folder / "none.glsl").string()));  // it is watched, to compile once it exists
     write(sources.folder / "none.glsl", "#include \"shaders/none.glsl\"\n");
     CHECK(sources.refused("draw/surface.frag").find("includes itself") != std::string::npos);
     fs::remove(sources.folder / "draw/surface.frag");
@@ -113,7 +112,7 @@ TEST_CASE("errors say file and line") {
     CHECK(sources.refused("draw/line.vert").empty());
 }
 
-TEST_CASE("an interface that changes is refused, and nothing else is") {
+TEST_CASE("edits that change an interface are refused, others are accepted") {
     struct Case {
         const char *file, *before, *after, *shader, *why;
     };
@@ -160,20 +159,21 @@ TEST_CASE("an interface that changes is refused, and nothing else is") {
     }
 }
 
-TEST_CASE("another stage's words, and what is no SPIR-V, are refused") {
+TEST_CASE("words of another stage and damaged SPIR-V are refused") {
     const gpu::Shader &vertex = built_in("draw/line.vert"), &fragment = built_in("draw/line.frag");
     CHECK(gpu::check_interface(vertex, vertex.words));
     CHECK_FALSE(gpu::check_interface(vertex, fragment.words));
     CHECK_FALSE(gpu::check_interface(vertex, {}));
     std::mt19937 random(3);
-    for (int i = 0; i < 2000; ++i) {  // does not read past the end, whatever it is given
+    // Random words: a sanitizer reports reads behind the end.
+    for (int i = 0; i < 2000; ++i) {
         std::vector<std::uint32_t> words(vertex.words.begin(), vertex.words.begin() + random() % vertex.words.size());
         for (int k = 0; k < 3 && !words.empty(); ++k) words[random() % words.size()] ^= 1U << (random() % 32);
         (void)gpu::check_interface(vertex, words);
     }
 }
 
-TEST_CASE("what is half written is an error or a shader, and crashes nothing") {
+TEST_CASE("half-written shaders are refused or compile, without a crash") {
     Sources sources;
     std::mt19937 random(7);
     std::size_t refused = 0, taken = 0;
@@ -182,7 +182,7 @@ TEST_CASE("what is half written is an error or a shader, and crashes nothing") {
         CAPTURE(name);
         for (int i = 0; i < 12; ++i) {
             const std::size_t at = random() % whole.size();
-            // Cut; without a piece; with a character that is another.
+            // Cuts the text, removes a piece, or changes a character.
             std::string text = whole.substr(0, at);
             if (i % 3 == 1) text += whole.substr(std::min(whole.size(), at + random() % 60));
             if (i % 3 == 2) text += static_cast<char>(random() % 128) + whole.substr(at + 1);
@@ -196,7 +196,7 @@ TEST_CASE("what is half written is an error or a shader, and crashes nothing") {
         sources.restore(name);
     }
     CHECK(refused > 100);
-    CHECK(taken > 10);  // cut in a comment, say
+    CHECK_MESSAGE(taken > 10, "some half-written shaders are valid");
 }
 
 }  // namespace
