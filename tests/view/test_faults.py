@@ -138,11 +138,12 @@ class Faults(driver.Scripted):
         self.assertEqual((states[0]["file"], states[0]["error"]), (torus, ""))
 
     def test_no_more_than_a_few_files_are_waited_for(self):
+        # On a busy machine a reader may be stopped before its thread starts, and then waits for nothing: a few more files.
         script = []
-        for i in range(9):
+        for i in range(12):
             script += [f"open {self.slow_mesh(str(i))}", "frames 3"]
         states, _, seconds = self.slow("\n".join(script) + "\nframes 3\nprint")
-        self.assertIn("8-slow.ply: 8 other files are still being read", states[0]["error"])
+        self.assertIn("11-slow.ply: 8 other files are still being read", states[0]["error"])
         self.assertLess(seconds, SOON)
 
     def test_closing_waits_for_no_encoder(self):
