@@ -29,7 +29,7 @@ extern "C" {
 
 /* Version of the library that this file belongs to. */
 #define LACEDRING_VERSION_MAJOR 0
-#define LACEDRING_VERSION_MINOR 1
+#define LACEDRING_VERSION_MINOR 2
 #define LACEDRING_VERSION_PATCH 0
 
 #define LACEDRING_LEAN_HEADER_WORDS 8
