@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_tables.py LACEDRING: stats --table, the paper's tables as Markdown, and what they add to the JSON."""
+"""test_tables.py LACEDRING: stats --table, the paper's tables as Markdown and in the JSON."""
 
 import os
 
