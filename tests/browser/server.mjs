@@ -1,4 +1,4 @@
-// Serves page.html, three.js, the package lacedring and single files on 127.0.0.1.
+// Serves page.html, three.js, the lacedring package and single files on 127.0.0.1.
 import { createReadStream, existsSync } from "node:fs";
 import { createServer } from "node:http";
 import { basename, dirname, join, resolve } from "node:path";
@@ -8,11 +8,11 @@ const TYPES = { html: "text/html", js: "text/javascript", gltf: "model/gltf+json
 const here = dirname(fileURLToPath(import.meta.url));
 
 /**
- * @param {string} packages what scripts/node-packages prints
- * @param {string} plugin the package that scripts/build-js writes
+ * @param {string} packages output of scripts/node-packages
+ * @param {string} plugin output folder of scripts/build-js
  */
 export async function serve(packages, plugin) {
-  const folders = [];  // /N/NAME is NAME in the first of folders[N] that has it
+  const folders = [];  // the URL /N/NAME is NAME in the first folder of folders[N] that has it
   const find = (path) => {
     const [, place, ...rest] = decodeURIComponent(path).split("/");
     if (place === "three") return join(packages, "node_modules/three", ...rest);
@@ -32,7 +32,7 @@ export async function serve(packages, plugin) {
   await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
   return {
     url: (path) => `http://127.0.0.1:${server.address().port}/${path}`,
-    /** The path of a file. What it refers to is looked for beside it, then in the other folders. */
+    /** Returns the URL path of a file. Files that it refers to are searched in its folder, then in `others`. */
     add: (file, ...others) => {
       folders.push([dirname(resolve(file)), ...others.map((folder) => resolve(folder))]);
       return `/${folders.length - 1}/${encodeURIComponent(basename(file))}`;

@@ -1,4 +1,4 @@
-// Reads what the tests need of a plain GLB: the first primitive.
+// Reads the first primitive of a plain GLB.
 import { readFileSync } from "node:fs";
 
 const TYPES = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };

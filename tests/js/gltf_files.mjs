@@ -1,10 +1,10 @@
-// Reads and writes plain GLB files, for tests; shares no code with the package.
+// Reads and writes plain GLB files; shares no code with the package.
 
 const pad = (size) => Math.ceil(size / 4) * 4;
 const SIZES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
 const SHAPES = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 
-/** A GLB of a document without buffers, and of the contents of its buffer views. */
+/** A GLB of a document without buffers and the contents of its buffer views. */
 export function makeGlb(json, views) {
   let size = 0;
   json.bufferViews = views.map(({ length }) => {
@@ -39,7 +39,7 @@ export function readScene(bytes) {
   return { json, view };
 }
 
-/** The values of an accessor, tightly packed, without its sparse ones. */
+/** The tightly packed values of an accessor, without its sparse values. */
 export function accessorBytes({ json, view }, i) {
   const { bufferView, byteOffset = 0, componentType, type, count } = json.accessors[i];
   const size = SIZES[componentType] * SHAPES[type], out = new Uint8Array(count * size);
