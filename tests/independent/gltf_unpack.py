@@ -113,7 +113,7 @@ def decode_floats(data, size):
     if len(lengths) != base + rows * width or max(lengths[base:], default=0) > 32 or max(lengths[:base], default=0) > 7:
         raise BadFile("floats: lengths that are not valid")
     bits, left = int.from_bytes(data[8 + packed:], "little"), 8 * (len(data) - 8 - packed)
-    stack = []  # rows of bits
+    stack = []  # decoded rows, as bits of floats
     for i in range(rows):
         codes = []
         for c in range(width):

@@ -438,7 +438,7 @@ def decode_packed(words):
 
 
 class Turns:
-    """The packed turns of a record, with ranks."""
+    """The turns of a record as bits, with rank queries (popcounts)."""
 
     def __init__(self, words, first, count):
         self.bits = int.from_bytes(words[4 + first // 32:4 + (first + count + 31) // 32].tobytes(), "little")

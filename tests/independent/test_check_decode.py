@@ -108,7 +108,7 @@ class CheckDecode(unittest.TestCase):
 
     def test_lean(self):
         C, F, W = 1 << 30, 1 << 29, 1 << 31
-        # A two-sided ring of 0..3 around the tetrahedron-like quad, a one-sided ring of 4..6, one verbatim triangle.
+        # A two-sided ring of vertices 0 to 3, a one-sided ring of 4 to 6, and one verbatim triangle.
         payload = [2, 1, 1, 2, 0, 3, 0 | C, 0, 4, 5, 4 | C, 6, 5, 4]
 
         def stream(payload, rings2=4, rings1=3, triangles=None):

@@ -154,7 +154,7 @@ class StoredAttributes(unittest.TestCase):
             words = array.array("I", contents[begin:])
             part = words[1:1 + words[0]]
             layout = part[1 + part[0]] & 0x7FFFFF
-            before = 23 + {LATTICE: 64, DECIMALS: 4, OCTAHEDRAL: 32}.get(layout >> 5 & 7, 0)  # bits before "usual ranges"
+            before = 23 + {LATTICE: 64, DECIMALS: 4, OCTAHEDRAL: 32}.get(layout >> 5 & 7, 0)  # bits before the flag "usual ranges"
             raw = int.from_bytes(part[1 + part[0]:].tobytes(), "little")
             bits, at, rest = raw & (1 << before) - 1, before + 1, raw >> before + 1
             for _ in range(layout & 31):

@@ -31,7 +31,7 @@ class VertexOrder:
         self.opposite = opposite_corners(triangles)
         self.complete = [len(set(triangle)) < 3 for triangle in triangles]
         self.known = [False] * vertices
-        self.corners = defaultdict(list)  # of each vertex, the one in front last
+        self.corners = defaultdict(list)  # by vertex: a stack of its corners
         self.stack, self.queues = [], (deque(), deque())
 
     def run(self, visitor):

@@ -62,13 +62,13 @@ def place_of(name, folders):
 
 
 def owner_of(header):
-    """The path of a header in quotes, as far as it matters."""
+    """The path of a header in quotes below the repository's root; public headers get their folder."""
     folder, _, name = header.partition("/")
     return ("lrio/" if name in LRIO else "lrcore/include/") + header if folder == "lacedring" else header
 
 
 def folder_of(name):
-    """The folder of CORE of a file of lrcore. `name`: as it is included."""
+    """The folder in CORE of a file of lrcore. `name`: the path in its #include."""
     folder, _, rest = name.partition("/")
     return PUBLIC.get(rest) if folder == "lacedring" else rest.split("/")[0]
 

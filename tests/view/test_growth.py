@@ -136,7 +136,7 @@ class Growth(driver.Scripted):
         self.assertEqual(states[1]["growth"][0], states[1]["growth"][1])
         self.assertEqual([state["growth"][0] for state in states[2:]], [77, 77, 77])
 
-    def test_paint_that_comes_later_and_marks(self):
+    def test_each_paint_and_selection_changes_the_picture(self):
         blob = mesh("blob", 3000)
         names = [f"{driver.folder}/paint-{i}.png" for i in range(6)]
         self.view(f"""set panels off

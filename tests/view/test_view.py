@@ -100,7 +100,7 @@ class View(driver.Scripted):
             # The background is computed by the device in one picture and by the CPU in the other.
             self.assertLessEqual(largest, 1, view)
             self.assertLessEqual(pixels, 480 * 320 // 20, view)
-        # Its creases are lines only, those of `render` all that are sharp.
+        # The silhouette view has lines that the smooth view does not.
         smooth, lines = (png.read(f"{driver.folder}/{view}.png") for view in ("smooth", "silhouette"))
         self.assertGreater(png.differences(smooth, lines)[0], 500)
 
