@@ -70,7 +70,7 @@ class Seams(CliTest):
                 per_copy = {s["name"]: s.get("per_copy", False) for s in sections if "name" in s}
                 self.assertEqual(per_copy, {"POSITION": False, "TEXCOORD_0": wanted[2] > 0})
 
-    def test_identical_copies_are_merged_but_where_the_order_is_kept(self):
+    def test_identical_copies_are_merged_unless_the_order_is_kept(self):
         triangles = [(0, 1, 2), (0, 2, 3)]
         points = [POINTS[v] for t in triangles for v in t]
         source = self.write("a.ply", write.ply(points, [(0, 1, 2), (3, 4, 5)]))
@@ -84,7 +84,7 @@ class Seams(CliTest):
         self.assertEqual(back.indices, [0, 1, 2, 3, 4, 5])
         self.assertEqual([struct.unpack("<3f", p) for p in back.positions], points)
 
-    def test_topology_is_that_of_positions(self):
+    def test_topology_is_that_of_welded_positions(self):
         """Compares the globe's topology with that of the mesh welded here."""
         source = check_decode.read(GLOBE)
         numbers = {}

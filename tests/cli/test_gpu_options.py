@@ -81,7 +81,7 @@ class GpuOptions(CliTest):
         self.usage(*render, "--random-seed", "5", "--seeds", "1", "--optimize", "0", says="--random-seed applies only")
         self.assertFalse(os.path.exists(out))
 
-    def test_what_render_takes_has_an_effect(self):
+    def test_every_option_of_render_has_an_effect(self):
         mesh = self.generate("blob", 3000)
         for arguments in (("--view", "silhouette", "--", "--crease", "5"), ("--source", "plain", "--view", "class", "--", "--no-warts"),
                           ("--source", "plain", "--view", "offsets", "--", "--no-warts"),
@@ -127,7 +127,7 @@ class GpuOptions(CliTest):
             self.fails(*command, "--device", "no such device", codes=(NO_DEVICE,),
                        mentions=[device["name"], 'not named "no such device"'])
 
-    def test_a_device_that_lacks_something(self):
+    def test_missing_device_features_are_reported(self):
         mesh, out = self.generate("blob", 60000), self.path("x.png")
         skipped = {s["path"] for s in self.json("compare", self.generate("torus", 200), "--size", "32x32", "--source", "lean", "--json")["skipped"]}
         if "mesh" in skipped:
@@ -165,7 +165,7 @@ class GpuOptions(CliTest):
         self.assertEqual([(r["source"], r["pixels_different"], r["vertices_equal_cpu"]) for r in document["results"]],
                          [("packed_vertices", 0, True)])
 
-    def test_nothing_to_be_seen(self):
+    def test_blank_comparisons_are_reported(self):
         triangle = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
         far = [(i * 1e-6, j * 1e-6, 0) for i in range(50) for j in range(50)] + [(1, 0, 0), (1, 1e-7, 0), (0, 1e-7, 0)]
         specks = [(50 * i + j + 1, 50 * i + j + 2, 50 * i + j + 51) for i in range(49) for j in range(49)]
@@ -201,7 +201,7 @@ class GpuOptions(CliTest):
     def test_messages_of_validation_fail_a_bench(self):
         self.ok("bench", self.generate("torus", 200), "--rounds", "1", "--validation")
 
-    def test_progress_is_for_terminals(self):
+    def test_progress_is_printed_on_terminals_only(self):
         mesh = self.generate("blob", 2000)
         for arguments in (("compare", mesh, "--size", "160x120", "--source", "lean,packed"), ("bench", mesh, "--rounds", "1", "--operators")):
             code, out, said = on_a_terminal(*arguments)

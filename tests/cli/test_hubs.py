@@ -73,20 +73,20 @@ class Hubs(CliTest):
         self.assertEqual(set(mesh["operators"]), {"corner_table", "winged_edge", "lr", "lr_compact"})
         self.assertIn("strips absent: ", self.ok("bench", self.make("same", 4000), "--rounds", "1", *self.no_gpu("bench")).out)
 
-    def test_many_triangles_at_one_place(self):
+    def test_many_triangles_at_one_position(self):
         mesh = self.json("stats", self.make("pile", 4000), "--no-weld", "--json")["meshes"][0]
         self.assertEqual(set(mesh["absent"]), {"meshlets"})
         self.assertIn("at one place, and 4000 are", mesh["absent"]["meshlets"])
         self.assertIsNotNone(mesh["best_order"])
 
-    def test_ordinary_meshes_have_all(self):
+    def test_ordinary_meshes_have_all_baselines(self):
         for kind in ("blob", "soup", "parts"):
             mesh = self.json("stats", self.generate(kind, 20000), "--json")["meshes"][0]
             self.assertEqual(mesh["absent"], {}, kind)
             self.assertGreater(mesh["best_order"]["acmr_fifo32"], 0.5)
         self.assertEqual(self.json("verify", self.generate("blob", 20000), "--json")["absent"], {})
 
-    def test_linear(self):
+    def test_hundred_thousand_triangles_take_seconds(self):
         """A hundred thousand triangles take seconds; quadratic work would take minutes."""
         n = 100000
         for kind in ("fan", "book", "same"):

@@ -55,7 +55,7 @@ class Pack(CliTest):
         for case, report in zip(cases, in_parallel(one, range(len(cases)))):
             print(f"{report['bytes_before']:8} {report['bytes_after']:8}  {' '.join(case)}")
 
-    def test_neighbors(self):
+    def test_data_beside_packed_triangles(self):
         """Data beside the packed triangles: lines that share positions and have their own colors, morph targets of integers, whose
         bounds glTF requires, and matrices of small integers, whose columns are padded."""
         parts = [struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0), struct.pack("<6H", 0, 1, 2, 2, 1, 3), struct.pack("<12f", *[0.5] * 12),
@@ -90,7 +90,7 @@ class Pack(CliTest):
             lines = out["bufferViews"][out["accessors"][0]["bufferView"]]
             self.assertEqual(binary[lines["byteOffset"]:lines["byteOffset"] + lines["byteLength"]], parts[0])
 
-    def test_other_commands(self):
+    def test_other_commands_read_packed_scenes(self):
         """Commands that read meshes print the same for a packed scene as for the unpacked one."""
         commands = [["info"], ["stats"], ["verify"]]
         if self.has_command("compare"):
@@ -132,7 +132,7 @@ class Pack(CliTest):
         with open(self.path("x.lr"), "rb") as x, open(self.path("y.lr"), "rb") as y:
             self.assertEqual(x.read(), y.read())
 
-    def test_outside(self):
+    def test_buffers_outside_the_folder(self):
         """The buffers of a packed scene must be in its folder, unless others are allowed."""
         os.mkdir(self.path("in"))
         self.ok("pack", self.path("scene.glb"), "-o", self.path("in/s.gltf"))

@@ -119,7 +119,7 @@ class PackBad(CliTest):
         """Checks all cases and returns how many were refused."""
         return sum(code == BAD_INPUT for code in in_parallel(self.check, cases))
 
-    def test_fields(self):
+    def test_wrong_fields(self):
         for options in (["--document", "plain"], ["--document", "packed"], ["--document", "plain", "--keep-order"]):
             packed = Packed(self.packed(*options))
             changes = [(path, wrong) for path in extension_paths(packed.document) for wrong in WRONG][::12]
@@ -128,7 +128,7 @@ class PackBad(CliTest):
             print(f"{' '.join(options)}: {refused} of {len(cases)} refused")
             self.assertGreater(refused, len(cases) // 2)
 
-    def test_bytes(self):
+    def test_damaged_bytes(self):
         """Files cut short, and files with a damaged byte."""
         cases = []
         for options in (["--document", "plain"], ["--document", "packed"]):
@@ -139,7 +139,7 @@ class PackBad(CliTest):
                 cases.append((f"c{len(cases)}", "unpack", good[:at] + bytes([good[at] ^ 0x41]) + good[at + 1:]))
         self.assertGreater(self.check_all(cases), len(cases) // 2)
 
-    def test_outer(self):
+    def test_wrong_packed_documents(self):
         """Packed documents that are no JSON, or are packed scenes themselves."""
         packed = Packed(self.packed("--document", "packed"))
         cases = []
@@ -152,7 +152,7 @@ class PackBad(CliTest):
         self.check_all(cases)
         self.fails("unpack", self.write("deep.glb", cases[6][2]), "-o", self.path("x.glb"), mentions=["packed document"])
 
-    def test_rules(self):
+    def test_broken_rules(self):
         """Rules that a change of one or two fields breaks."""
         def refused(says, change, *options):
             packed = Packed(self.packed("--document", "plain", *options))
@@ -187,7 +187,7 @@ class PackBad(CliTest):
                     primitive["attributes"]["_RENAMED"] = primitive["attributes"].pop("NORMAL")
         self.ok("unpack", self.write("renamed.glb", packed.with_document(packed.document)), "-o", self.path("fine.glb"))
 
-    def test_commands(self):
+    def test_commands_refuse_damaged_scenes(self):
         """Damaged packed scenes in commands that read meshes."""
         good = self.packed()
         cases = []
@@ -204,7 +204,7 @@ class PackBad(CliTest):
 
         self.assertGreater(sum(code == BAD_INPUT for code in in_parallel(check, cases)), len(cases) // 2)
 
-    def test_sources(self):
+    def test_scenes_that_pack_cannot_read(self):
         """Scenes that pack cannot read."""
         with open(self.path("scene.glb"), "rb") as file:
             document, binary = split(file.read())

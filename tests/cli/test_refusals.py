@@ -97,7 +97,7 @@ class Inputs(CliTest):
 
 
 class Outputs(CliTest):
-    def test_never_over_an_input(self):
+    def test_inputs_are_never_overwritten(self):
         mesh = self.generate("blob", 500)
         lr = self.path("a.lr")
         self.ok("encode", mesh, "-o", lr)
@@ -146,7 +146,7 @@ class Outputs(CliTest):
         self.assertTrue(os.path.islink(self.path("good.ply")))
         self.assertTrue(os.path.isfile(self.path("folder/target.ply")))
 
-    def test_permissions_stay_and_nothing_is_left(self):
+    def test_permissions_stay_and_no_temporary_file_is_left(self):
         lr, out = self.path("x.lr"), self.path("x.ply")
         self.ok("encode", self.generate("blob", 500), "-o", lr)
         self.write("x.ply", b"old")
@@ -220,7 +220,7 @@ class Streams(CliTest):
         self.assertEqual(shell(f"$L encode '{mesh}' -o '{self.path('o.lr')}' <&- >&- 2>&-").returncode, DONE)
         self.ok("verify", self.path("o.lr"))
 
-    def test_all_closed(self):
+    def test_all_standard_streams_closed(self):
         self.assertEqual(shell(f"$L info '{self.path('missing.ply')}' <&- >&- 2>&-").returncode, BAD_INPUT)
         self.assertEqual(shell("$L info - <&-").returncode, BAD_INPUT)
 
@@ -286,7 +286,7 @@ class Usage(CliTest):
 
 
 class Notes(CliTest):
-    def test_what_is_not_kept(self):
+    def test_losses_are_reported(self):
         document = json.loads(write.gltf(POINTS, [(4, [0, 1, 2])]))
         document.update(materials=[{}, {}], textures=[{}], skins=[{"joints": [0]}], animations=[{}], images=[{"uri": "../x.png"}])
         gltf = self.write("a.gltf", json.dumps(document).encode())
@@ -298,7 +298,7 @@ class Notes(CliTest):
         # An error is one line, without the notes.
         self.fails("encode", gltf, "-o", self.path("missing/a.lr"), mentions=["missing/a.lr"])
 
-    def test_names_do_not_command_the_terminal(self):
+    def test_control_characters_of_names_are_not_printed(self):
         named = write.ply(POINTS, TRIANGLES).replace(b"uchar red", b"uchar \x1b[31mred\x07")
         mesh, lr = self.write("named.ply", named), self.path("named.lr")
         self.ok("encode", mesh, "-o", lr)
@@ -312,7 +312,7 @@ class Notes(CliTest):
         for options in ((), ("--weld",), ("--weld=position",), ("--no-weld",)):
             self.assertEqual(self.ok("info", *options, mesh).err, "")
 
-    def test_encode_says_what_it_wrote(self):
+    def test_encode_reports_the_file_that_it_wrote(self):
         mesh = self.write("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\nf 1 1 2\nf 1 2 2\n")
         lr = self.path("m.lr")
         outcome = self.ok("encode", mesh, "-o", lr, "--format", "packed")
@@ -327,7 +327,7 @@ class Notes(CliTest):
         self.fails("encode", only, "-o", self.path("only.lr"), mentions=["degenerate"])
         self.ok("info", only)
 
-    def test_what_an_lr_file_consists_of(self):
+    def test_info_lists_the_sections_of_an_lr_file(self):
         mesh = self.generate("soup", 500)
         for form, kind in (("lean", "lean"), ("packed", "packed"), ("lr", "lr"), ("lr-compact", "lr_compact")):
             for keep in (False, True):
@@ -366,7 +366,7 @@ class Notes(CliTest):
         for options in (["--positions", "0"], ["--positions", "23"], ["--normals", "1"], ["--normals", "17"], ["--weights", "x"]):
             self.fails("encode", mesh, "-o", lr, *options, mentions=[options[0]], codes=(WRONG_USAGE,))
 
-    def test_original_order_to_the_corner(self):
+    def test_original_order_restores_first_corners(self):
         """--original-order restores the input's index list, with the same first corner of each triangle."""
         triangles = [(0, 1, 2), (3, 0, 2), (2, 2, 1), (1, 0, 3), (2, 1, 3)]
         mesh = self.write("m.obj", write.obj(POINTS, triangles))

@@ -194,7 +194,7 @@ class Scenes(CliTest):
         self.assertEqual(mesh["sum"]["formats"]["index_u32"], mesh["primitives"][0]["formats"]["index_u32"])
         self.assertTrue(all(p["ok"] for p in self.json("verify", path, "--json")["primitives"]))
 
-    def test_joined_is_what_nodes_place(self):
+    def test_joined_mesh_has_the_placed_triangles(self):
         """Compares the triangles of an .lr file with those computed here: mirrored nodes, instances, strips."""
         lr, ply = self.path("a.lr"), self.path("a.ply")
         said = self.ok("encode", self.scene, "-o", lr).err
@@ -220,7 +220,7 @@ class Scenes(CliTest):
         self.assertEqual(outcome.code, DONE, str(outcome))
         self.assertNotIn("scene", json.loads(outcome.out))
 
-    def test_others_have_no_primitives(self):
+    def test_other_formats_have_no_primitives(self):
         single = Scene()
         single.node(mesh=single.mesh([{"attributes": {"POSITION": single.accessor([(0, 0, 0), (1, 0, 0), (0, 1, 0)])}}]))
         for path in (self.write("one.ply", write.ply(CUBE, QUADS)), self.write("one.glb", single.glb())):

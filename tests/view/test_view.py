@@ -60,7 +60,7 @@ class View(driver.Scripted):
         for text in (f"wrong.txt:{before.count(chr(10)) + 1}: ", *why):
             self.assertIn(text, done.stderr, line)
 
-    def test_what_a_script_may_not_say(self):
+    def test_invalid_script_lines(self):
         """Unknown words and numbers out of range are errors."""
         self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # the device has no mesh shaders
         for line in ("set warts yes", "set samples 4", "set samples 1.5", "set divider 1.1", "set k -5", "set k nan",
