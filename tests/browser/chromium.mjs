@@ -1,16 +1,17 @@
-// Headless Chromium, told what to do by the DevTools protocol over a pipe.
+// Controls headless Chromium by the DevTools protocol over a pipe.
 import {spawn} from "node:child_process";
 import {mkdtempSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 
-// WebGL2 without a GPU (SwiftShader), the same pixels on every machine. The sandbox needs rights that containers lack.
+// WebGL2 in software (SwiftShader) draws the same pixels on every machine. The sandbox needs rights that containers do
+// not have.
 const FLAGS = [
   "--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-first-run",
   "--disable-extensions", "--remote-debugging-pipe"
 ];
-// WebGPU in the same way. Pages come from 127.0.0.1: elsewhere there is none. Without Vulkan the GPU process ends when
-// a canvas is shown.
+// WebGPU in software. Pages must be served from 127.0.0.1. Without Vulkan the GPU process crashes when a canvas is
+// shown.
 export const WEBGPU = [
   "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"
 ];
@@ -21,10 +22,10 @@ export class Page {
   #waiting = new Map();
   #listeners = new Map();
   #session;
-  #last = 0;  // id of a message
+  #last = 0;  // id of the last message
   #ended;
-  #why;  // it has ended; undefined while it runs
-  /** Errors and warnings of the page's console, and what was thrown and not caught. */
+  #why;  // why the browser ended; undefined while it runs
+  /** Errors and warnings of the page's console, and uncaught exceptions. */
   problems = [];
 
   constructor(flags = []) {
@@ -90,7 +91,7 @@ export class Page {
     await loaded;
   }
 
-  /** The value of an expression in the page; promises are waited for. */
+  /** Evaluates an expression in the page; awaits promises. */
   async evaluate(expression) {
     const {result, exceptionDetails} =
       await this.#send("Runtime.evaluate", {expression, awaitPromise: true, returnByValue: true});
@@ -98,20 +99,20 @@ export class Page {
     return result.value;
   }
 
-  /** Bytes in use after a garbage collection: of JavaScript's objects, and of arrays and wasm memories. */
+  /** Bytes used after a garbage collection, by JavaScript objects and by arrays and wasm memories. */
   async memory() {
     await this.#send("HeapProfiler.collectGarbage");
     const {usedSize, backingStorageSize} = await this.#send("Runtime.getHeapUsage");
     return {objects: usedSize, arrays: backingStorageSize};
   }
 
-  /** Chooses files for an input, as a person does. `input` is an expression. */
+  /** Chooses files in a file input, like a user. `input` is an expression. */
   async choose(input, files) {
     const {result} = await this.#send("Runtime.evaluate", {expression: input});
     await this.#send("DOM.setFileInputFiles", {objectId: result.objectId, files});
   }
 
-  /** Makes the page so large, in pixels, and light or dark. */
+  /** Sets the size of the page in pixels, and its color scheme. */
   async show(width, height, scheme = "light") {
     await this.#send("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: false});
     await this.#send("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: scheme}]});

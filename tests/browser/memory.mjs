@@ -1,6 +1,6 @@
-// node memory.mjs PACKAGES PLUGIN FILE: loads and draws a packed glTF file 100 times with the plug-in in headless
-// Chromium, frees it each time, and looks at the memory that is in use after 20 times and after 100. Exit code 1 if it
-// grows. PACKAGES and PLUGIN are those of pictures.mjs.
+// node memory.mjs PACKAGES PLUGIN FILE: loads, draws and frees a packed glTF file 100 times with the plug-in in
+// headless Chromium, and compares the memory used after 20 and 100 times. Exit code 1 if it grows. PACKAGES and PLUGIN:
+// as for pictures.mjs.
 import {dirname, join} from "node:path";
 import {fileURLToPath} from "node:url";
 
@@ -10,7 +10,7 @@ import {Page} from "./chromium.mjs";
 
 const [packages, plugin, file] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
-const MOST = 1 << 20;  // bytes that it may grow by: three.js itself leaves 1 to 3 KB of objects a time
+const MOST = 1 << 20;  // allowed growth in bytes; three.js itself leaves 1 to 3 KB of objects each time
 
 const folders = {
   "": here,

@@ -1,5 +1,4 @@
-// Draws a glTF file from fixed directions at fixed times of its animations, and compares pictures with those of other
-// files.
+// Draws glTF files from fixed directions at fixed times of their animations, and compares the pictures.
 import * as THREE from "three";
 import {GLTFLoader} from "three/addons/loaders/GLTFLoader.js";
 
@@ -14,7 +13,7 @@ const renderer = new THREE.WebGLRenderer({antialias: false, preserveDrawingBuffe
 renderer.setSize(WIDTH, HEIGHT);
 document.body.append(renderer.domElement);
 
-/** A sphere around all that is drawn at time 0. */
+/** A sphere around everything that is drawn at time 0. */
 function bounds(scene) {
   scene.updateMatrixWorld(true);
   return new THREE.Box3().setFromObject(scene, true).getBoundingSphere(new THREE.Sphere());
@@ -55,11 +54,11 @@ async function load(url, isPacked) {
   return loader.loadAsync(url);
 }
 
-let sphere, reference, last;  // last: drawn without the plug-in
+let sphere, reference, last;  // last: the last picture without the plug-in
 
 /**
- * Draws a file. The first one is the reference: its bounds place the camera for all. It stays on the GPU, and so do
- * its shaders.
+ * Draws a file. The first is the reference: its bounds place the camera for all, and it stays on the GPU with its
+ * shaders.
  */
 async function draw(url, isPacked, views = VIEWS) {
   const {scene: model, animations} = await load(url, isPacked);
@@ -103,8 +102,8 @@ function statistics(ours, theirs) {
     let difference = 0, fromBackground = 0;
     for (let channel = 0; channel < 3; channel++) {
       difference = Math.max(difference, Math.abs(ours[i + channel] - theirs[i + channel]));
-      fromBackground =
-        Math.max(fromBackground, Math.abs(theirs[i + channel] - theirs[channel]));  // the first pixel is background
+      fromBackground = Math.max(
+        fromBackground, Math.abs(theirs[i + channel] - theirs[channel]));  // the first pixel shows the background
     }
     different += difference > 0;
     over += difference > 16;
@@ -115,8 +114,8 @@ function statistics(ours, theirs) {
 }
 
 /**
- * For each view: pixels that differ, by more than 16 of 255, the largest difference, pixels covered. A packed file is
- * compared with the last one that was not, others with the reference.
+ * For each view: pixels that differ by more than 16 of 255, the largest difference, covered pixels. A packed file is
+ * compared with the last plain one, others with the reference.
  */
 window.compare = async (url, isPacked) => {
   const drawn = await draw(url, isPacked);
@@ -128,7 +127,7 @@ window.reset = () => {
   sphere = reference = undefined;
 };
 
-/** Loads and draws a packed file again and again; what is on the GPU afterwards. */
+/** Loads, draws and frees a packed file `times` times. Returns the objects on the GPU afterwards. */
 window.repeat = async (url, times) => {
   for (let i = 0; i < times; i++) await draw(url, true, VIEWS.slice(0, 1));
   return {...renderer.info.memory};

@@ -1,8 +1,8 @@
 // node pictures.mjs PACKAGES PLUGIN [--keep FOLDER] [--source SOURCE [--exact FILE | --close FILE | --packed
 // FILE]...]... Draws glTF files with three.js in headless Chromium and compares the pictures with those of their
-// source; --packed draws with the plug-in and allows no pixel of difference from the file before. Exit code 1 if one
-// differs too much, or if the page's console has an error. PACKAGES is what scripts/node-packages prints, PLUGIN the
-// package that scripts/build-js writes; --keep writes the pictures as PNG files.
+// source. --packed draws with the plug-in and allows no different pixel from the preceding file. Exit code 1: a picture
+// differs too much, or the page's console has an error. PACKAGES is the output of scripts/node-packages, PLUGIN the
+// output folder of scripts/build-js; --keep writes the pictures as PNG files.
 import {mkdirSync, writeFileSync} from "node:fs";
 import {basename, dirname, join} from "node:path";
 import {fileURLToPath} from "node:url";
@@ -11,8 +11,8 @@ import {serve, share} from "../../scripts/web.mjs";
 
 import {Page} from "./chromium.mjs";
 
-// The share of the covered pixels that may differ by more than 16 of 255. Even of equal triangles some may, where two
-// are as near to the eye or a texel ends: their order and first corners decide about the last bit.
+// The share of covered pixels that may differ by more than 16 of 255. Equal triangles may differ at equal depth and at
+// the edges of texels, because their order and first corners change the last bit.
 const LIMITS = {
   "--exact": 0.0002,
   "--close": 0.01,

@@ -1,5 +1,5 @@
-// node positions.mjs LACEDRING GLTFPACK MESH...: a table of the bytes of meshes of positions alone, lossless, as .lr
-// files in storage form and as gltfpack -noq -c writes them (document and buffers), as they are and after brotli.
+// node positions.mjs LACEDRING GLTFPACK MESH...: prints a table of the bytes of meshes of positions, lossless, as .lr
+// files in storage form and as files of gltfpack -noq -c (document and buffers), plain and compressed by brotli.
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -11,10 +11,10 @@ const folder = mkdtempSync(join(tmpdir(), "lacedring-positions-"));
 const [whole, alone, ours, theirs] =
   ["whole.glb", "alone.glb", "ours.lr", "theirs.glb"].map((name) => join(folder, name));
 
-/** Runs a program; what it says is part of the error if it fails. */
+/** Runs a program; if it fails, the error has its output. */
 const run = (...command) => execFileSync(command[0], command.slice(1), {stdio: "pipe"});
 
-/** Writes the GLB without the attributes beside POSITION. */
+/** Writes the GLB with POSITION as its only attribute. */
 function keepPositions(from, to) {
   const data = readFileSync(from);
   const end = 20 + data.readUInt32LE(12);

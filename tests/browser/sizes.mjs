@@ -1,10 +1,10 @@
-// node sizes.mjs (SOURCE PACKED LOSSLESS GLTFPACK)...: a table of the bytes of glTF files without their images, as they
-// are and after brotli. The bytes are the JSON without image data URIs, and all buffers without the bytes of images.
+// node sizes.mjs (SOURCE PACKED LOSSLESS GLTFPACK)...: prints a table of the bytes of glTF files without their images,
+// plain and compressed by brotli: the JSON without image data URIs, and all buffers without the bytes of images.
 import {existsSync, readFileSync} from "node:fs";
 import {basename, dirname, join} from "node:path";
 import {brotliCompressSync, constants} from "node:zlib";
 
-/** The JSON, and the GLB's binary chunk if there is one. */
+/** The JSON and, if there is one, the binary chunk of a GLB. */
 function parts(file) {
   const data = readFileSync(file);
   if (data.toString("latin1", 0, 4) !== "glTF") return [data, null];
@@ -12,10 +12,7 @@ function parts(file) {
   return [data.subarray(20, 20 + length), data.subarray(28 + length)];
 }
 
-/**
- * The bytes of the images that lie in a glTF file. Both programs keep them, also where the JSON that names them is
- * compressed.
- */
+/** The bytes of the images in a glTF file. Both programs keep these bytes, even if the JSON is compressed. */
 function imagesOf(file) {
   const [text, binary] = parts(file);
   const json = JSON.parse(text);

@@ -1,6 +1,6 @@
 // node validate.mjs PACKAGES [FILE...] [--source SOURCE FILE...]...
-// Runs the Khronos glTF validator. A FILE may have no error, and one that was made from a SOURCE no kind of error or
-// warning that the source does not have. Exit code 1 otherwise. PACKAGES is what scripts/node-packages prints.
+// Runs the Khronos glTF validator. A FILE may have no error; one made from a SOURCE may have only the kinds of errors
+// and warnings of its source. Exit code 1 otherwise. PACKAGES is the output of scripts/node-packages.
 import {readFileSync} from "node:fs";
 import {createRequire} from "node:module";
 import {basename, dirname, join, resolve} from "node:path";
@@ -8,7 +8,7 @@ import {basename, dirname, join, resolve} from "node:path";
 const [packages, ...args] = process.argv.slice(2);
 const {validateBytes} = createRequire(resolve(packages, "package.json"))("gltf-validator");
 
-// A GLB keeps the data URIs of the .gltf that it was made from; only there they are worth a warning.
+// A GLB keeps the data URIs of its source .gltf. The validator warns of them only in a GLB.
 const ALLOWED = new Set(["DATA_URI_GLB"]);
 
 async function codes(file, folders) {

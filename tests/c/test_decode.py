@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_decode.py CC HEADERS: a C99 program with lacedring_decode.h alone, against the readers that were written from
-docs/lean-format.md and docs/packed-format.md: the golden streams and mutations of them, accepted or refused alike, and the same triangles."""
+"""test_decode.py CC HEADERS: a C99 program with lacedring_decode.h alone accepts the same golden streams and mutations of them as
+the readers in tests/independent, and decodes the same triangles."""
 
 import array
 import os
@@ -84,7 +84,7 @@ def main():
             if path.name.startswith("file-") or "-lr" in path.name:
                 continue
             words = golden(path)
-            # Packed ones have several thousand triangles, and Python takes long for each.
+            # Packed streams have thousands of triangles and take long in Python.
             many = 1500 if len(words) < 1000 and words[0] != PACKED else 20 if words[0] != PACKED else 150
             streams += [words] + [mutated(words, rng) for _ in range(many)]
         given = b"".join(struct.pack("<I", len(words)) + words.tobytes() for words in streams)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_scene.py LACEDRING C_SCENE: the C interface unpacks what the command line packs, byte for byte as that does."""
+"""test_scene.py LACEDRING C_SCENE: the C interface unpacks packed scenes to the same bytes as the command line."""
 
 import os
 import subprocess

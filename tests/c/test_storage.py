@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """test_storage.py LACEDRING CC HEADERS ASSETS: a C99 program with lacedring_storage.h and lacedring_stored_seams.h alone decodes .lr files in storage
-form to the triangles and attributes of `lacedring decode`: as it is, without vectors (LACEDRING_PLAIN) and sanitized."""
+form to the triangles and attributes of `lacedring decode`. It is compiled normally, without vectors (LACEDRING_PLAIN) and sanitized."""
 
 import pathlib
 import struct
@@ -14,11 +14,11 @@ VARIANTS = {"vectors": ["-O2"], "plain": ["-O2", "-DLACEDRING_PLAIN"],
             "sanitized": ["-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]}
 CASES = [("blob.ply", ["--positions", "14"]), ("cut_torus.ply", ["--positions", "10"]), ("blob.ply", ["--positions", "20"]),
          ("globe.glb", ["--positions", "14", "--normals", "10", "--texcoords", "12"])]
-ATTRIBUTES = ["v", "vt", "vn"]  # in the order of a corner's numbers
+ATTRIBUTES = ["v", "vt", "vn"]  # in the order of the numbers of a corner
 
 
 def surface(text):
-    """The vertices, as they are when rounded to 32-bit floats, and the triangles of an OBJ: the values of their corners."""
+    """The vertices of an OBJ, rounded to 32-bit floats, and its triangles as the values of their corners."""
     values, triangles = {word: [] for word in ATTRIBUTES}, []
     for line in text.splitlines():
         word, *rest = line.split() or [""]

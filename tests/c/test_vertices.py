@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""test_vertices.py LACEDRING CC HEADERS: lacedring_vertices.h, once as it is, with eight blocks at once where the
-processor has AVX2, and once without (LACEDRING_PLAIN): streams and mutations of them are accepted or refused alike,
-with the same fault at the same place, and decode to the same values; accepted ones as the reader has it that was
-written from docs/vertex-format.md."""
+"""test_vertices.py LACEDRING CC HEADERS: compiles lacedring_vertices.h with and without vectors (LACEDRING_PLAIN); with AVX2 it
+decodes eight blocks at once. Both accept the same streams and mutations, report the same fault at the same place, and decode the
+same values, which vertex_reader.py (docs/vertex-format.md) confirms."""
 
 import array
 import math
@@ -23,14 +22,14 @@ from vertex_reader import read_vertices  # noqa: E402
 MAGIC = b"LRV1"
 ROWS, COLUMNS = 51, 45  # 2295 vertices: 17 whole blocks, and a part of one
 MANY = 150  # mutations of each stream
-READ = 2  # of those that are accepted, and of those that are not, read in Python
+READ = 2  # of the accepted and of the refused mutations, read in Python
 FLAGS = ["-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror", "-g"]
 VARIANTS = {"lanes": ["-O2"], "plain": ["-O2", "-DLACEDRING_PLAIN"],
             "sanitized": ["-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]}
 
 
 def grid(rng):
-    """A PLY of a bent sheet, with attributes of one to four values a vertex."""
+    """A PLY file of a bent sheet, with attributes of one to four values per vertex."""
     head = ["ply", "format binary_little_endian 1.0", f"element vertex {ROWS * COLUMNS}"]
     head += [f"property float {name}" for name in ("x", "y", "z", "nx", "ny", "nz", "s", "t", "confidence")]
     head += [f"property uchar {name}" for name in ("red", "green", "blue", "alpha")]
@@ -51,8 +50,8 @@ def grid(rng):
 
 
 def streams_of(path):
-    """Vertex streams of an .lr file: from one magic to the next. What lies behind a stream does not belong to it, but
-    its last two words are 0 and its checksum says where it ends."""
+    """The vertex streams of an .lr file, from one magic number to the next. The last two words of a stream are 0, and its checksum
+    shows where it ends."""
     words = array.array("I", path.read_bytes())
     magic = int.from_bytes(MAGIC, "little")
     begins = [i for i, word in enumerate(words) if word == magic] + [len(words)]
@@ -85,7 +84,7 @@ def mutated(words, rng):
 
 
 def decoded(words):
-    """The line that the C programs should write, or None."""
+    """The line that the C programs must print; None if the stream is refused."""
     try:
         values = read_vertices(words.tobytes()).values
     except BadFile:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_bad_input.py LACEDRING: damaged files, hostile counts, unwritable outputs. Nothing may crash, hang, print more than
-one line, or leave a file behind. Damage is random; LACEDRING_TEST_SEED repeats a run."""
+"""test_bad_input.py LACEDRING: damaged files, hostile counts, unwritable outputs. The program may not crash, hang, print more
+than one line, or leave a file behind. Damage is random; LACEDRING_TEST_SEED repeats a run."""
 
 import json
 import os
@@ -16,7 +16,7 @@ import check_decode
 import mesh_writers as write
 
 SEED = int(os.environ.get("LACEDRING_TEST_SEED") or random.SystemRandom().randrange(1 << 32))
-CUTS = 25 if SANITIZED else 200  # places at which every format is cut off
+CUTS = 25 if SANITIZED else 200  # per format: lengths to which a file is cut
 FLIPS = 25 if SANITIZED else 200
 
 POINTS = [(0.0, 0.0, 0.0), (1.5, 0.0, 0.0), (1.0, 1.0, 0.25), (0.0, 1.0, 0.0), (0.1, 0.2, -3e-7)]
@@ -35,7 +35,7 @@ def grid(n):
 
 
 def samples():
-    """Every format, a few kilobytes each: name -> bytes."""
+    """{name: bytes} of a small file in every format."""
     points, triangles = grid(5)
     flat = write.flat(triangles)
     return {"a.obj": write.obj(points, triangles), "a.off": write.off(points, triangles),
@@ -47,7 +47,7 @@ def samples():
 
 
 class Damage(CliTest):
-    """Files cut off and bytes changed: an error, or a mesh that all of the program can work with."""
+    """Cut and changed files are refused, or read as a mesh that all commands can use."""
 
     @classmethod
     def setUpClass(cls):
@@ -88,7 +88,7 @@ class Damage(CliTest):
         for name, data in samples().items():
             text = name in ("a.obj", "a.off", "ascii.ply", "ascii.stl")
             for at in self.places(len(data), CUTS):
-                # The last number of a text may lose digits, and any line of an OBJ may be the last one.
+                # Cutting may remove digits of the last number, and an OBJ may end with any line.
                 may_pass = name == "a.obj" or (text and at > len(data) - 8)
                 jobs.append((name, data[:at], f"{name} cut at {at}", may_pass))
         in_parallel(lambda job: self.try_file(*job), jobs)
@@ -105,12 +105,12 @@ class Damage(CliTest):
         results = in_parallel(lambda job: self.try_file(*job), jobs)
         self.assertTrue(any(code == BAD_INPUT for code, _ in results))
         self.assertTrue(any(code == DONE for code, _ in results))
-        for code, target in results[::7]:  # what was accepted is a mesh like any other
+        for code, target in results[::7]:  # every seventh file is used further, if it was accepted
             if code == DONE:
                 self.ok("verify", target)
 
     def make_lr(self, form, *options):
-        stored = form == "packed" and not options  # a soup's stream has no storage form
+        stored = form == "packed" and not options  # a soup has no storage form
         source = self.generate("blob" if stored else "soup", 300, 2)
         lr = self.path("-".join(("good", form, *options)) + ".lr")
         self.ok("encode", source, "-o", lr, "--format", form, *options)
@@ -118,7 +118,7 @@ class Damage(CliTest):
             return lr, file.read()
 
     def test_lr_truncated_and_flipped(self):
-        # The last has its attributes as they lie in memory.
+        # The last form has uncompressed attributes.
         for form in (("lean",), ("packed",), ("packed", "--resident"), ("lr",)):
             self.truncate_and_flip(*form)
 
@@ -135,20 +135,20 @@ class Damage(CliTest):
         jobs = []
         for i in range(2 * FLIPS):
             damaged = bytearray(data)
-            at = self.random.randrange(len(data)) if i >= 64 else i  # the header byte by byte
+            at = self.random.randrange(len(data)) if i >= 64 else i  # first every byte of the header
             damaged[at] ^= 1 << self.random.randrange(8)
             jobs.append(("a.lr", bytes(damaged), f"{form} byte {at} changed, {i}", True))
         for (code, target), job in zip(in_parallel(lambda job: self.try_file(*job), jobs), jobs):
-            if code == DONE:  # a byte between sections, which means nothing
+            if code == DONE:  # the byte was padding between sections
                 with open(target, "rb") as file:
                     self.assertEqual(file.read(), expected, f"{job[2]} (LACEDRING_TEST_SEED={SEED})")
 
     def test_lr_forged(self):
-        """Wrong numbers under right checksums: refused, or decoded as the format's rules have it."""
+        """Files with wrong numbers and valid checksums are refused, or decode as the format says."""
         _, data = self.make_lr("lean")
         jobs = []
         for change in (1, -1, 1000, 1 << 29, 1 << 31):
-            for word in range(2, 7):  # the counts of the stream's header
+            for word in range(2, 7):  # counts in the stream's header
                 jobs.append(("a.lr", forge(data, LEAN, lambda w: change_word(w, word, change)),
                              f"count {word} {change:+}", False))
             for word in (1, 6):  # vertices and exceptions of the vertex stream
@@ -184,13 +184,13 @@ def change_word(words, at, change):
     words[at] = (words[at] + change) % (1 << 32)
 
 
-LEAN, VERTICES = 1, 8  # kinds of sections
+LEAN, VERTICES = 1, 8  # section kinds
 
 
 def forge(data, wanted, edit):
-    """The .lr file with the words of its one stream of kind `wanted` edited and every checksum made right again."""
+    """Edits the words of the stream of section kind `wanted`, and sets all checksums."""
     data = bytearray(data)
-    at = {LEAN: 7, VERTICES: 3}[wanted]  # of the stream's checksum
+    at = {LEAN: 7, VERTICES: 3}[wanted]  # word of the stream's checksum
     found = 0
     for i in range(struct.unpack_from("<I", data, 8)[0]):
         kind, _, _, offset, size, _, name_length = struct.unpack_from("<HHIQQII", data, 32 + 32 * i)
@@ -216,10 +216,10 @@ def seal(data):
 
 
 class Wrong(CliTest):
-    """Files that are wrong in one thing. The message names the file and says where."""
+    """Files with one error. The message names the file and the place."""
 
     def check_memory(self):
-        """Nothing was allocated for hostile counts before they were refused."""
+        """Hostile counts are refused before memory is allocated for them."""
         if not SANITIZED:
             self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 600 * 1024)
 
@@ -245,7 +245,7 @@ class Wrong(CliTest):
             self.fails("decode", source, "-o", self.path("out.ply"), mentions=[source])
         good = self.generate("torus", 100)
         self.fails("decode", good, "-o", self.path("out.ply"), mentions=[good, "not an .lr file: it looks like a PLY file"])
-        outcome = run("stats", good, self.path("missing.ply"), "--json")  # the good one's figures come all the same
+        outcome = run("stats", good, self.path("missing.ply"), "--json")  # the good file is still reported
         self.assertEqual((outcome.code, len(json.loads(outcome.out)["meshes"])), (BAD_INPUT, 1), str(outcome))
         self.assertRegex(outcome.err, r"\Alacedring: [^\n]*missing.ply: [^\n]*\n\Z")
 
@@ -279,7 +279,7 @@ class Wrong(CliTest):
         for line in (b"f 1 2 6", b"f 1 2 0", b"f 1 2 -6", b"f 1 2 99999999999999999999", b"f 1/0 2 3", b"f 1//x 2 3", b"f a b c",
                      b"f 1 2 3.5", b"f 1 2 \\ 3", b"fo 1 2 6"):
             self.refused("a.obj", obj + line + b"\n", "line 10")
-        # where there are some; of which there is none at all are left out
+        # References to normals or texture coordinates are errors only if the file has any.
         for line, there in ((b"f 1/2 2 3", b"vt 0 0\n"), (b"f 1//2 2 3", b"vn 0 0 1\n"), (b"f 1/1/-3 2 3", b"vn 0 0 1\nvt 0 0\n")):
             self.refused("a.obj", obj + line + b"\n" + there, "line 10")
             self.ok("info", self.write("good.obj", obj + line + b"\n"))
@@ -372,7 +372,7 @@ class Output(CliTest):
             self.fails("decode", lr, "-o", self.path(name), codes=(WRONG_USAGE, BAD_INPUT))
 
     def test_notes_come_after_success(self):
-        """Dropped degenerate triangles are reported, but not beside an error: that is one line."""
+        """Dropped degenerate triangles are reported, but not beside an error, which is one line."""
         soup = self.generate("soup", 1000)
         self.fails("encode", soup, "-o", self.path("missing/out.lr"), mentions=["missing/out.lr"])
 
@@ -382,7 +382,7 @@ class Output(CliTest):
         self.ok("encode", mesh, "-o", lr)
         old = self.write("old.ply", b"precious")
 
-        def small_files():  # as a full disk: writes fail half-way
+        def small_files():  # writes fail half-way, as on a full disk
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (65536, 65536))
 

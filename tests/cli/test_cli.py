@@ -165,12 +165,12 @@ class RoundTrip(CliTest):
                 self.ok("encode", source, "-o", lr, "--format", form, "--orient", "--force")
                 self.assertLessEqual(os.path.getsize(lr), as_it_is)
 
-    def test_nothing_but_degenerate_triangles(self):
+    def test_only_degenerate_triangles(self):
         source = self.write("flat.ply", write.ply(POINTS, [(0, 0, 1), (2, 2, 2)]))
         self.ok("verify", source)
         self.assertEqual(self.json("stats", source, "--json")["meshes"][0]["degenerate_dropped"], 2)
 
-    def test_large(self):
+    def test_more_than_65536_vertices(self):
         self.round_trip(self.generate("blob", 140000, 1))  # more than 65,536 vertices
 
     def test_input_formats(self):
@@ -303,7 +303,7 @@ class Json(CliTest):
         self.assertNotIn("index_u16", mesh["formats"])
         self.assertIn("index_u16", mesh["absent"])
 
-    def test_text_is_not_empty(self):
+    def test_text_output_has_lines(self):
         path = self.generate("terrain", 500)
         for command in ("info", "stats", "verify"):
             self.assertIn("\n", self.ok(command, path).out)

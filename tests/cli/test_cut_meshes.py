@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_cut_meshes.py LACEDRING: meshes cut at seams. Commands join them at one position, and keep what their copies differ in."""
+"""test_cut_meshes.py LACEDRING: meshes cut at seams. Commands join vertices at one position, and keep attributes that differ between the copies."""
 
 import os
 import struct
@@ -20,7 +20,7 @@ def glb_corners(path):
         gltf = Gltf(file.read(), "")
     primitive = gltf.json["meshes"][0]["primitives"][0]
     columns = [gltf.accessor(primitive["attributes"][name], raw_floats=True)[0] for name in sorted(primitive["attributes"])]
-    # -0 of a position is 0
+    # A position's -0 is read as 0.
     place = sorted(primitive["attributes"]).index("POSITION")
     columns[place] = [tuple(0 if bits == 1 << 31 else bits for bits in v) for v in columns[place]]
     vertices = list(zip(*columns))
@@ -34,7 +34,7 @@ def textured_obj(points, corners, texture):
             "".join("f " + " ".join(f"{p + 1}/{t + 1}" for p, t in triangle) + "\n" for triangle in corners).encode())
 
 
-# A square of two triangles with a seam along their common edge, and a triangle beside that is not cut.
+# A square of two triangles with a seam along their common edge, and a triangle beside it without a seam.
 POINTS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)]
 CUT = [((0, 0), (1, 1), (2, 2)), ((0, 3), (2, 4), (3, 5)), ((1, 1), (4, 0), (2, 2))]
 TEXTURE = [(0, 0), (0.5, 0), (0.5, 1), (0.25, 0), (0.75, 1), (0, 1)]
@@ -42,7 +42,7 @@ TEXTURE = [(0, 0), (0.5, 0), (0.5, 1), (0.25, 0), (0.75, 1), (0, 1)]
 
 class Seams(CliTest):
     def encode(self, *options, source=GLOBE):
-        """The path of an .lr file, and info's report on it, which joins what the file's options join."""
+        """Encodes and returns the path of the .lr file and the report of info on it."""
         path = self.path("-".join(["x", *options]) + ".lr")
         self.ok("encode", source, "-o", path, "--force", *options)
         return path, self.json("info", path, "--json", *(o for o in options if "weld" in o))
@@ -70,7 +70,7 @@ class Seams(CliTest):
                 per_copy = {s["name"]: s.get("per_copy", False) for s in sections if "name" in s}
                 self.assertEqual(per_copy, {"POSITION": False, "TEXCOORD_0": wanted[2] > 0})
 
-    def test_identical_copies_are_merged_but_where_the_order_is_kept(self):
+    def test_identical_copies_are_merged_unless_the_order_is_kept(self):
         triangles = [(0, 1, 2), (0, 2, 3)]
         points = [POINTS[v] for t in triangles for v in t]
         source = self.write("a.ply", write.ply(points, [(0, 1, 2), (3, 4, 5)]))
@@ -84,8 +84,8 @@ class Seams(CliTest):
         self.assertEqual(back.indices, [0, 1, 2, 3, 4, 5])
         self.assertEqual([struct.unpack("<3f", p) for p in back.positions], points)
 
-    def test_topology_is_that_of_positions(self):
-        """Of the globe, as the test itself welds it."""
+    def test_topology_is_that_of_welded_positions(self):
+        """Compares the globe's topology with that of the mesh welded here."""
         source = check_decode.read(GLOBE)
         numbers = {}
         for position in source.positions:
@@ -111,7 +111,7 @@ class Seams(CliTest):
                     path, info = self.encode("--format", form, *options)
                     cut, _ = self.encode("--format", form, "--no-weld", *options)
                     self.assertLess(os.path.getsize(path), os.path.getsize(cut))
-                    # Which attributes have values for each copy.
+                    # {attribute: whether it has a value per copy}
                     per_copy = {s["name"]: s["per_copy"] for s in info["lr"]["sections"] if "name" in s}
                     self.assertEqual((per_copy["POSITION"], per_copy["TEXCOORD_0"]), (False, True))
 
@@ -136,7 +136,7 @@ class Seams(CliTest):
         for name in ("triangles", "vertices", "copies", "components", "border_edges"):
             self.assertEqual(info[name], source[name], name)
 
-    def test_zeros_below_zero(self):
+    def test_minus_zero_is_zero(self):
         points = [(0.0, 0, 0), (1, 0, 0), (1, 1, 0), (-0.0, 0, 0), (1, 1, 0), (0, 1, 0)]
         source = self.write("a.ply", write.ply(points, [(0, 1, 2), (3, 4, 5)]))
         said = self.ok("encode", source, "-o", self.path("a.lr"), "--keep-order").err
@@ -151,7 +151,7 @@ class Seams(CliTest):
     def test_tolerance(self):
         points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0.125, 0), (1, 1, 0.25), (0, 2, 0)]
         source = self.write("a.ply", write.ply(points, [(0, 1, 2), (3, 4, 5)]))
-        # Vertices of one triangle stay where they are, however large the tolerance.
+        # Vertices of one triangle are never joined, at any tolerance.
         for tolerance, vertices in (("0.0625", 6), ("0.125", 5), ("0.25", 4), ("1e-300", 6), ("1e300", 5)):
             info = self.json("info", source, "--weld-tolerance", tolerance, "--json")
             self.assertEqual(info["vertices"], vertices, tolerance)
@@ -159,7 +159,7 @@ class Seams(CliTest):
         self.assertIn("--weld-tolerance: 2 vertices move, by 0.25 at most", said)
         self.assertEqual(self.json("info", self.path("a.lr"), "--json")["vertices"], 4)
         self.assertNotIn("--weld-tolerance", self.ok("info", source, "--weld-tolerance", "0.01").err)
-        # An .lr file's vertices, too; its seams stay.
+        # The vertices of an .lr file are joined, too, and its seams are kept.
         path, before = self.encode()
         joined = self.json("info", path, "--weld-tolerance", "1e-9", "--json")
         self.assertEqual([joined[n] for n in ("vertices", "copies")], [before[n] for n in ("vertices", "copies")])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_gpu_options.py LACEDRING: options that have no effect, devices that lack something, comparisons that see nothing, and
-progress. Needs a renderer and a Vulkan device, as the tests of the renderer do."""
+"""test_gpu_options.py LACEDRING: options without effect, devices without a feature, blank comparisons, and progress. Needs a
+renderer and a Vulkan device."""
 
 import os
 import pty
@@ -13,7 +13,7 @@ from cli_support import DONE, NO_DEVICE, WRONG_USAGE, CliTest, main
 
 
 def on_a_terminal(*arguments, timeout=300):
-    """Runs the program with standard error on a terminal: exit code, standard output, and what the terminal got."""
+    """Runs the program with standard error on a terminal. Returns exit code, standard output and the terminal's text."""
     ours, theirs = pty.openpty()
     process = subprocess.Popen([cli_support.program, *arguments], stdout=subprocess.PIPE, stderr=theirs, stdin=subprocess.DEVNULL)
     os.close(theirs)
@@ -48,7 +48,7 @@ class GpuOptions(CliTest):
         self.fails(*arguments, mentions=[says], codes=(WRONG_USAGE,))
 
     def same_picture(self, *arguments):
-        """Is the picture of render that of the options before "--" alone?"""
+        """Whether render draws the same picture with all options as with those before "--"."""
         pictures = []
         plain = arguments[:arguments.index("--")]
         for options in (plain, [a for a in arguments if a != "--"]):
@@ -81,7 +81,7 @@ class GpuOptions(CliTest):
         self.usage(*render, "--random-seed", "5", "--seeds", "1", "--optimize", "0", says="--random-seed applies only")
         self.assertFalse(os.path.exists(out))
 
-    def test_what_render_takes_has_an_effect(self):
+    def test_every_option_of_render_has_an_effect(self):
         mesh = self.generate("blob", 3000)
         for arguments in (("--view", "silhouette", "--", "--crease", "5"), ("--source", "plain", "--view", "class", "--", "--no-warts"),
                           ("--source", "plain", "--view", "offsets", "--", "--no-warts"),
@@ -127,7 +127,7 @@ class GpuOptions(CliTest):
             self.fails(*command, "--device", "no such device", codes=(NO_DEVICE,),
                        mentions=[device["name"], 'not named "no such device"'])
 
-    def test_a_device_that_lacks_something(self):
+    def test_missing_device_features_are_reported(self):
         mesh, out = self.generate("blob", 60000), self.path("x.png")
         skipped = {s["path"] for s in self.json("compare", self.generate("torus", 200), "--size", "32x32", "--source", "lean", "--json")["skipped"]}
         if "mesh" in skipped:
@@ -138,15 +138,15 @@ class GpuOptions(CliTest):
             self.fails("compare", mesh, "--device-memory", memory, codes=(NO_DEVICE,), mentions=["left"])
         self.fails("bench", self.generate("torus", 200), "--rounds", "1", "--device-memory", "1", codes=(NO_DEVICE,), mentions=["left"])
         self.fails("render", mesh, "-o", out, "--samples", "8", "--size", "8192x8192", codes=(NO_DEVICE,), mentions=["the device draws at most"])
-        # Samples that nobody asked for are as many as there can be.
+        # The default number of samples is the largest possible.
         report = self.json("render", mesh, "-o", out, "--size", "8000x8", "--json")
         self.assertIn(report["samples"], (4, 9))
-        # A report counts what cannot be drawn.
+        # A report counts the pictures that cannot be drawn.
         said = self.ok("report", self.generate("torus", 200), "-o", self.path("x.html"), "--device-memory", "1").out
         self.assertIn("no pictures: ", said)
 
     def test_packed_vertices(self):
-        """The picture of a quantized source is that of the file that encode writes, whatever draws it."""
+        """The picture of a quantized source equals that of the encoded file, by every path."""
         mesh = self.generate("parts", 900)
         same = ("--size", "80x60", "--samples", "1", "--json")
         self.ok("encode", mesh, "-o", self.path("x.lr"), "--positions", "9", "--keep-order")
@@ -165,7 +165,7 @@ class GpuOptions(CliTest):
         self.assertEqual([(r["source"], r["pixels_different"], r["vertices_equal_cpu"]) for r in document["results"]],
                          [("packed_vertices", 0, True)])
 
-    def test_nothing_to_be_seen(self):
+    def test_blank_comparisons_are_reported(self):
         triangle = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
         far = [(i * 1e-6, j * 1e-6, 0) for i in range(50) for j in range(50)] + [(1, 0, 0), (1, 1e-7, 0), (0, 1e-7, 0)]
         specks = [(50 * i + j + 1, 50 * i + j + 2, 50 * i + j + 51) for i in range(49) for j in range(49)]
@@ -181,7 +181,7 @@ class GpuOptions(CliTest):
                   "hidden": obj(cube + inside, shell + hidden)}
         for name, data in meshes.items():
             path = self.write(name + ".obj", data)
-            # By one path that is quick to start, and once by two: test_gpu compares blank pictures by every path.
+            # One or two paths suffice: test_gpu compares blank pictures by every path.
             text = self.ok("compare", path, "--size", "80x60", "--path", "compute", "--source", "lean").out
             self.assertIn("nothing to be seen", text.splitlines()[-1], name)
             self.assertNotIn("DIFFERENT", text)
@@ -201,7 +201,7 @@ class GpuOptions(CliTest):
     def test_messages_of_validation_fail_a_bench(self):
         self.ok("bench", self.generate("torus", 200), "--rounds", "1", "--validation")
 
-    def test_progress_is_for_terminals(self):
+    def test_progress_is_printed_on_terminals_only(self):
         mesh = self.generate("blob", 2000)
         for arguments in (("compare", mesh, "--size", "160x120", "--source", "lean,packed"), ("bench", mesh, "--rounds", "1", "--operators")):
             code, out, said = on_a_terminal(*arguments)
@@ -214,7 +214,7 @@ class GpuOptions(CliTest):
             self.assertNotIn("\r", out)
         outcome = self.ok("compare", mesh, "--size", "160x120", "--path", "compute")
         self.assertEqual(outcome.err, "")
-        # An error is on a line of its own.
+        # An error begins on a new line.
         bad = self.write("bad.obj", b"v 0 0 0\nf 1 1 1\n")
         code, _, said = on_a_terminal("bench", mesh, bad, "--rounds", "1")
         self.assertNotEqual(code, DONE)

@@ -1,4 +1,4 @@
-"""lacedring info: what it says of meshes whose topology and volume are known."""
+"""lacedring info: its report on meshes of known topology and volume."""
 
 from cli_support import CliTest, main
 
@@ -6,7 +6,7 @@ import mesh_writers as write
 
 CUBE = [(i & 1, i >> 1 & 1, i >> 2 & 1) for i in range(8)]
 QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-# A contract: names may be added, none taken away.
+# The contract of the JSON: names may be added, but not removed.
 NAMES = {"schema", "file", "triangles", "vertices", "unused_vertices", "components", "shells", "border_edges", "border_loops",
          "nonmanifold_edges", "nonmanifold_vertices", "degenerate_dropped", "flipped", "cut_edges", "orientable", "closed",
          "euler_characteristic", "genus", "handles", "valence6_percent", "max_valence", "smesh", "smesh_reason",
@@ -23,7 +23,7 @@ def moved(points, by):
 
 class Info(CliTest):
     def info(self, points, faces, **expected):
-        """The report, as JSON, of which these entries are checked; and the text for people."""
+        """Checks entries of the JSON report, and that the text has the same numbers."""
         source = self.write("a.ply", write.ply(points, faces, real="double"))
         report = self.json("info", source, "--json")
         self.assertEqual(NAMES - set(report), set())
@@ -54,7 +54,7 @@ class Info(CliTest):
         self.info(CUBE + inner, faces, smesh=False, smesh_reason="2 shells", volume=0.875, inside_out_shells=1, closed=True)
 
     def test_doubles_far_away(self):
-        # 2^40 and an eighth: no float holds it.
+        # 2^40 + 1/8 is no float.
         small = [tuple(0.125 * x for x in p) for p in CUBE]
         self.info(moved(small, 2.0 ** 40), QUADS, smesh=True, volume=0.125 ** 3)
 

@@ -27,20 +27,20 @@ class Pack(CliTest):
             SceneMaker().write(self.path(f"scene.{extension}"))
 
     def pack(self, name, source, *options, extension="glb"):
-        """pack's report, and the packed and the unpacked file; the scenes in them are compared with the source's."""
+        """Packs and unpacks, compares both scenes with the source, and returns pack's report and the two files."""
         packed, unpacked = self.path(f"{name}-packed.{extension}"), self.path(f"{name}-unpacked.glb")
         report = self.json("pack", source, "-o", packed, "--json", *options)
         self.ok("unpack", packed, "-o", unpacked)
         errors = None if "--lossless" in options else report["max_error"]
         before, after = Scene(source), Scene(unpacked)
         self.assertEqual(compare(before, after, errors, "--keep-order" in options), [], f"{name} {options}")
-        if "--fallback" in options:  # what a reader that does not know the extension sees
+        if "--fallback" in options:  # as a reader without the extension sees it
             plain = Scene(packed)
             self.assertEqual([*geometry_differences(before, plain, errors), *other_differences(before, plain)], [], name)
         return report, packed, unpacked
 
     def test_options(self):
-        """Every set of options, and a table of what it makes of the scene."""
+        """Packs the scene by every set of options, and prints a table of the sizes."""
         more = ([], ["--resident"], ["--fallback"], ["--keep-order"], ["--fallback", "--keep-order", "--resident"], ["--document", "plain"],
                 ["--document", "packed"])
         cases = [(source, to, *bits, *options) for source in ("glb", "gltf") for to in ("glb", "gltf")
@@ -55,9 +55,9 @@ class Pack(CliTest):
         for case, report in zip(cases, in_parallel(one, range(len(cases)))):
             print(f"{report['bytes_before']:8} {report['bytes_after']:8}  {' '.join(case)}")
 
-    def test_neighbors(self):
-        """What lies beside the triangles that are packed: lines that share positions and have colors of their own, morph targets of
-        integers, whose bounds glTF wants, and matrices of small integers, whose columns are padded."""
+    def test_data_beside_packed_triangles(self):
+        """Data beside the packed triangles: lines that share positions and have their own colors, morph targets of integers, whose
+        bounds glTF requires, and matrices of small integers, whose columns are padded."""
         parts = [struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0), struct.pack("<6H", 0, 1, 2, 2, 1, 3), struct.pack("<12f", *[0.5] * 12),
                  struct.pack("<4H", 0, 1, 2, 3), struct.pack("<16b", *[1, 2, 3, 0] * 4), bytes(range(1, 13)) * 20]
         views, data = [], b""
@@ -90,8 +90,8 @@ class Pack(CliTest):
             lines = out["bufferViews"][out["accessors"][0]["bufferView"]]
             self.assertEqual(binary[lines["byteOffset"]:lines["byteOffset"] + lines["byteLength"]], parts[0])
 
-    def test_other_commands(self):
-        """Commands that read meshes say of a packed scene what they say of the unpacked one, wherever it comes from."""
+    def test_other_commands_read_packed_scenes(self):
+        """Commands that read meshes print the same for a packed scene as for the unpacked one."""
         commands = [["info"], ["stats"], ["verify"]]
         if self.has_command("compare"):
             commands.append(["compare", "--path", "compute", "--size", "96x64"])
@@ -111,7 +111,7 @@ class Pack(CliTest):
             name = "-".join(case)
             _, packed, unpacked = self.pack(name, self.path("scene.glb"), *options, extension=extension)
             if "--fallback" in options and extension == "gltf":
-                os.remove(self.path(f"{name}-packed.fallback.bin"))  # a reader of the streams does not open it
+                os.remove(self.path(f"{name}-packed.fallback.bin"))  # readers of the streams do not open it
             for command in commands[:None if case == ("glb",) else 3]:
                 of_packed, of_unpacked = said(command, packed), said(command, unpacked)
                 if command == ["info"]:
@@ -132,8 +132,8 @@ class Pack(CliTest):
         with open(self.path("x.lr"), "rb") as x, open(self.path("y.lr"), "rb") as y:
             self.assertEqual(x.read(), y.read())
 
-    def test_outside(self):
-        """A packed scene's buffers lie in its folder, or are allowed to lie elsewhere."""
+    def test_buffers_outside_the_folder(self):
+        """The buffers of a packed scene must be in its folder, unless others are allowed."""
         os.mkdir(self.path("in"))
         self.ok("pack", self.path("scene.glb"), "-o", self.path("in/s.gltf"))
         os.rename(self.path("in/s.bin"), self.path("s.bin"))
@@ -145,7 +145,7 @@ class Pack(CliTest):
         self.ok("info", self.path("in/s.gltf"), "--allow-outside")
 
     def test_memory(self):
-        """A packed scene takes no more than a plain one may."""
+        """The memory limit of plain scenes holds for packed ones, too."""
         self.ok("generate", "genus", "-o", self.path("g.glb"), "--triangles", "20000")
         self.ok("pack", self.path("g.glb"), "-o", self.path("p.glb"))
         self.fails("info", self.path("p.glb"), "--max-memory", "1", mentions=["MiB"])

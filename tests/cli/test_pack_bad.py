@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_pack_bad.py LACEDRING: packed scenes whose extension lies, one field at a time, and scenes that cannot be packed. Each is refused in
-one line with exit code 3, and nothing is written; or the change does no harm, and what comes out can be read."""
+"""test_pack_bad.py LACEDRING: packed scenes with one wrong field in the extension, and scenes that cannot be packed. Each is refused in
+one line with exit code 3, and nothing is written; or the change does no harm, and the output can be read."""
 
 import copy
 import json
@@ -34,7 +34,7 @@ def join(document, binary):
 
 
 class Packed:
-    """A packed GLB whose document can be replaced, wherever it lies."""
+    """A packed GLB whose document, plain or compressed, can be replaced."""
 
     def __init__(self, glb):
         self.outer, self.binary = split(glb)
@@ -56,7 +56,7 @@ class Packed:
 
 
 def paths_below(value, path=()):
-    """The places of all values in a value, itself too; of long lists the first three and the last."""
+    """The paths of a value and of all values in it; of long lists only the first three and the last."""
     yield path
     if isinstance(value, dict):
         for key in value:
@@ -67,7 +67,7 @@ def paths_below(value, path=()):
 
 
 def extension_paths(document):
-    """The places of the extension's fields, of what streams say as well, and of what they depend on."""
+    """The paths of the extension's fields, and of fields that streams repeat or that the extension depends on."""
     for path in paths_below(document):
         if EXTENSION in path or (len(path) == 3 and path[0] == "accessors" and path[2] in ("count", "type", "componentType")):
             yield path
@@ -101,7 +101,7 @@ class PackBad(CliTest):
             return file.read()
 
     def check(self, case):
-        """Unpacks, or packs, bytes: one line and no output, or an output that can be read."""
+        """Unpacks or packs bytes: fails with one line and no output, or writes an output that can be read."""
         name, command, data = case
         source, target = self.write(f"{name}.glb", data), self.path(f"{name}.out.glb")
         outcome = run(command, source, "-o", target)
@@ -116,10 +116,10 @@ class PackBad(CliTest):
         return outcome.code
 
     def check_all(self, cases):
-        """How many were refused."""
+        """Checks all cases and returns how many were refused."""
         return sum(code == BAD_INPUT for code in in_parallel(self.check, cases))
 
-    def test_fields(self):
+    def test_wrong_fields(self):
         for options in (["--document", "plain"], ["--document", "packed"], ["--document", "plain", "--keep-order"]):
             packed = Packed(self.packed(*options))
             changes = [(path, wrong) for path in extension_paths(packed.document) for wrong in WRONG][::12]
@@ -128,7 +128,7 @@ class PackBad(CliTest):
             print(f"{' '.join(options)}: {refused} of {len(cases)} refused")
             self.assertGreater(refused, len(cases) // 2)
 
-    def test_bytes(self):
+    def test_damaged_bytes(self):
         """Files cut short, and files with a damaged byte."""
         cases = []
         for options in (["--document", "plain"], ["--document", "packed"]):
@@ -139,8 +139,8 @@ class PackBad(CliTest):
                 cases.append((f"c{len(cases)}", "unpack", good[:at] + bytes([good[at] ^ 0x41]) + good[at + 1:]))
         self.assertGreater(self.check_all(cases), len(cases) // 2)
 
-    def test_outer(self):
-        """A packed document that is none, or holds another one."""
+    def test_wrong_packed_documents(self):
+        """Packed documents that are no JSON, or are packed scenes themselves."""
         packed = Packed(self.packed("--document", "packed"))
         cases = []
         for text in (b"", b"{", b"[]", b"7", b"{}", b"[" * 100000, json.dumps(packed.outer).encode(), bytes(10**8)):
@@ -152,8 +152,8 @@ class PackBad(CliTest):
         self.check_all(cases)
         self.fails("unpack", self.write("deep.glb", cases[6][2]), "-o", self.path("x.glb"), mentions=["packed document"])
 
-    def test_rules(self):
-        """Rules that a change of one field breaks, or of two."""
+    def test_broken_rules(self):
+        """Rules that a change of one or two fields breaks."""
         def refused(says, change, *options):
             packed = Packed(self.packed("--document", "plain", *options))
             document = copy.deepcopy(packed.document)
@@ -179,7 +179,7 @@ class PackBad(CliTest):
         plain = next(i for i, a in enumerate(Packed(self.packed("--document", "plain")).document["accessors"]) if "bufferView" in a)
         refused(f"accessor {plain}", lambda d, s: d["accessors"][plain].update(bufferView=s["bufferView"]))
         refused("image 0", lambda d, s: d.update(images=[{"bufferView": s["bufferView"], "mimeType": "image/png"}]))
-        # Names in a stream are for tools: the document's need not be the same.
+        # Attribute names in a stream may differ from the document's.
         packed = Packed(self.packed("--document", "plain"))
         for mesh in packed.document["meshes"]:
             for primitive in mesh["primitives"]:
@@ -187,7 +187,7 @@ class PackBad(CliTest):
                     primitive["attributes"]["_RENAMED"] = primitive["attributes"].pop("NORMAL")
         self.ok("unpack", self.write("renamed.glb", packed.with_document(packed.document)), "-o", self.path("fine.glb"))
 
-    def test_commands(self):
+    def test_commands_refuse_damaged_scenes(self):
         """Damaged packed scenes in commands that read meshes."""
         good = self.packed()
         cases = []
@@ -204,7 +204,7 @@ class PackBad(CliTest):
 
         self.assertGreater(sum(code == BAD_INPUT for code in in_parallel(check, cases)), len(cases) // 2)
 
-    def test_sources(self):
+    def test_scenes_that_pack_cannot_read(self):
         """Scenes that pack cannot read."""
         with open(self.path("scene.glb"), "rb") as file:
             document, binary = split(file.read())

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_polygons.py LACEDRING: polygons of every shape in OBJ, OFF and PLY. tests/independent cuts them into the same
-triangles, from the text of docs/formats-read.md. Shapes are random; LACEDRING_TEST_SEED repeats a run."""
+"""test_polygons.py LACEDRING: polygons of every shape in OBJ, OFF and PLY are cut into the same triangles as by
+tests/independent, which follows docs/formats-read.md. Shapes are random; LACEDRING_TEST_SEED repeats a run."""
 
 import math
 import os
@@ -21,7 +21,7 @@ def as_float(x):
 
 
 def star(rng, n):
-    """Star-shaped: simple, and concave at random."""
+    """A random star-shaped polygon, which is simple and mostly concave."""
     angles = sorted(rng.random() * 2 * math.pi for _ in range(n))
     return [(r * math.cos(a), r * math.sin(a)) for a in angles for r in [rng.choice((0.2, 0.5, 1)) + rng.random() / 9]]
 
@@ -31,7 +31,7 @@ def tangle(rng, n):
 
 
 def lattice(rng, n):
-    """Few places: corners that coincide, lie on edges, or are flat."""
+    """Corners on a small lattice, which coincide, lie on edges, or are flat."""
     return [(rng.randrange(4), rng.randrange(4)) for _ in range(n)]
 
 
@@ -47,7 +47,7 @@ def comb(rng, n):
 
 
 def place(rng, shape):
-    """In space: on any plane, a little off it, near or far, small or large, beginning with any corner."""
+    """Places a polygon on a random plane in space, or a little off it, at a random size and distance, and rotates its corners."""
     scale = 10.0 ** rng.choice((0, 0, 0, -20, 15))
     axes = [[rng.gauss(0, 1) for _ in range(3)] for _ in range(3)]
     if rng.random() < 0.5:
@@ -106,8 +106,8 @@ class Polygons(CliTest):
             points += [(rng.randrange(4), rng.randrange(4), rng.choice((0, 0, 0, 1))) for _ in range(4)]
         self.check("quads.ply", write.ply(points, faces))
 
-    def test_report(self):
-        """The notch of the report's pentagon stays empty."""
+    def test_notch(self):
+        """The notch of a concave pentagon stays empty."""
         text = b"v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n"
         self.check("a.obj", text)
         self.ok("decode", self.path("a.obj-resident.lr"), "-o", self.path("out.obj"))
@@ -123,7 +123,7 @@ class Polygons(CliTest):
         self.assertEqual(sum(areas), 10)
 
     def test_large(self):
-        """One polygon of many corners, simple or tangled, takes seconds, not hours."""
+        """A polygon of many corners, simple or tangled, takes seconds."""
         n = 50000
         rng = random.Random(SEED)
         spiral = [(r * math.cos(a), r * math.sin(a)) for i in range(n) for a in [i / 7] for r in [1 + a]]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_refusals.py LACEDRING: what the program must not read, write over, or keep silent about."""
+"""test_refusals.py LACEDRING: inputs that the program must not read, files that it must not overwrite, and losses that it must report."""
 
 import json
 import os
@@ -20,14 +20,14 @@ TRIANGLES = [(0, 1, 2), (0, 2, 3)]
 
 
 def shell(command, **more):
-    """Runs `command` in a shell, $L being the program."""
+    """Runs a shell command, in which $L is the program."""
     environment = dict(os.environ, L=cli_support.program)
     return subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=environment, timeout=120, **more)
 
 
 class Inputs(CliTest):
     def test_only_regular_files(self):
-        """Pipes, devices, sockets and what /proc holds: refused at once, whatever the command, never waited for."""
+        """Every command refuses pipes, devices, sockets and files of /proc at once, without waiting."""
         os.mkfifo(self.path("pipe.ply"))
         os.symlink("pipe.ply", self.path("link.ply"))
         with socket.socket(socket.AF_UNIX) as server:
@@ -97,7 +97,7 @@ class Inputs(CliTest):
 
 
 class Outputs(CliTest):
-    def test_never_over_an_input(self):
+    def test_inputs_are_never_overwritten(self):
         mesh = self.generate("blob", 500)
         lr = self.path("a.lr")
         self.ok("encode", mesh, "-o", lr)
@@ -112,7 +112,7 @@ class Outputs(CliTest):
                 self.fails(*command, mentions=["--force"], codes=(WRONG_USAGE,))
         self.ok("encode", lr, "-o", lr, "--force")
         self.ok("verify", lr)
-        # A buffer beside a glTF is an input as well.
+        # A glTF's buffer is an input, too.
         document = json.loads(write.gltf(POINTS, [(4, [0, 1, 2])]))
         self.write("own.lr", write.gltf(POINTS, [(4, [0, 1, 2])], binary=True)[20 + struct.unpack_from(
             "<I", write.gltf(POINTS, [(4, [0, 1, 2])], binary=True), 12)[0] + 8:])
@@ -141,12 +141,12 @@ class Outputs(CliTest):
         self.check_error(outcome, "links")
         self.assertTrue(os.path.islink(self.path("a.ply")))
         os.mkdir(self.path("folder"))
-        os.symlink("folder/target.ply", self.path("good.ply"))  # what it leads to does not exist yet
+        os.symlink("folder/target.ply", self.path("good.ply"))  # its target does not exist yet
         self.ok("decode", lr, "-o", self.path("good.ply"))
         self.assertTrue(os.path.islink(self.path("good.ply")))
         self.assertTrue(os.path.isfile(self.path("folder/target.ply")))
 
-    def test_permissions_stay_and_nothing_is_left(self):
+    def test_permissions_stay_and_no_temporary_file_is_left(self):
         lr, out = self.path("x.lr"), self.path("x.ply")
         self.ok("encode", self.generate("blob", 500), "-o", lr)
         self.write("x.ply", b"old")
@@ -182,7 +182,7 @@ class Outputs(CliTest):
         twin = self.write("elsewhere/" + os.path.basename(good[0]), b"a file of the same name")
         outcome = run("encode", good[0], twin, "-o", out + "/")
         self.check_error(outcome, "two inputs", codes=(WRONG_USAGE,))
-        # Figures of the good ones come all the same.
+        # The good files are still reported.
         outcome = run("stats", "--json", "--optimize", "0", good[0], bad, good[1])
         self.assertEqual(outcome.code, BAD_INPUT, str(outcome))
         self.assertEqual([mesh["file"] for mesh in json.loads(outcome.out)["meshes"]], good[:2])
@@ -192,7 +192,7 @@ class Outputs(CliTest):
 
 
 class Streams(CliTest):
-    """Standard streams that are closed, full, or gone: the exit code is the command's."""
+    """With standard streams that are closed or full, the exit code is still the command's."""
 
     def test_standard_error(self):
         mesh = self.generate("blob", 500)
@@ -214,13 +214,13 @@ class Streams(CliTest):
                     out = shell(f"$L {command} {where}")
                     self.assertEqual(out.returncode, BAD_INPUT, out.stderr)
                     self.assertRegex(out.stderr, r"(?:\A|\n)lacedring: standard output: [^\n]+\n\Z")
-        # Nothing that is written lands in a file that got a closed stream's number.
+        # A file that is opened with the number of a closed stream gets no other output.
         self.assertEqual(shell(f"$L encode '{mesh}' -o '{self.path('o.lr')}' >&- 2>&-").returncode, DONE)
         self.ok("verify", self.path("o.lr"))
         self.assertEqual(shell(f"$L encode '{mesh}' -o '{self.path('o.lr')}' <&- >&- 2>&-").returncode, DONE)
         self.ok("verify", self.path("o.lr"))
 
-    def test_all_closed(self):
+    def test_all_standard_streams_closed(self):
         self.assertEqual(shell(f"$L info '{self.path('missing.ply')}' <&- >&- 2>&-").returncode, BAD_INPUT)
         self.assertEqual(shell("$L info - <&-").returncode, BAD_INPUT)
 
@@ -286,7 +286,7 @@ class Usage(CliTest):
 
 
 class Notes(CliTest):
-    def test_what_is_not_kept(self):
+    def test_losses_are_reported(self):
         document = json.loads(write.gltf(POINTS, [(4, [0, 1, 2])]))
         document.update(materials=[{}, {}], textures=[{}], skins=[{"joints": [0]}], animations=[{}], images=[{"uri": "../x.png"}])
         gltf = self.write("a.gltf", json.dumps(document).encode())
@@ -294,11 +294,11 @@ class Notes(CliTest):
         first = outcome.err.splitlines()[0]
         for what in ("not kept", "2 materials", "1 texture", "1 image", "1 skin", "1 animation"):
             self.assertIn(what, first)
-        self.assertEqual(self.json("info", "--json", gltf)["triangles"], 1)  # and standard output is the document alone
+        self.assertEqual(self.json("info", "--json", gltf)["triangles"], 1)  # standard output is the document only
         # An error is one line, without the notes.
         self.fails("encode", gltf, "-o", self.path("missing/a.lr"), mentions=["missing/a.lr"])
 
-    def test_names_do_not_command_the_terminal(self):
+    def test_control_characters_of_names_are_not_printed(self):
         named = write.ply(POINTS, TRIANGLES).replace(b"uchar red", b"uchar \x1b[31mred\x07")
         mesh, lr = self.write("named.ply", named), self.path("named.lr")
         self.ok("encode", mesh, "-o", lr)
@@ -312,7 +312,7 @@ class Notes(CliTest):
         for options in ((), ("--weld",), ("--weld=position",), ("--no-weld",)):
             self.assertEqual(self.ok("info", *options, mesh).err, "")
 
-    def test_encode_says_what_it_wrote(self):
+    def test_encode_reports_the_file_that_it_wrote(self):
         mesh = self.write("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\nf 1 1 2\nf 1 2 2\n")
         lr = self.path("m.lr")
         outcome = self.ok("encode", mesh, "-o", lr, "--format", "packed")
@@ -327,7 +327,7 @@ class Notes(CliTest):
         self.fails("encode", only, "-o", self.path("only.lr"), mentions=["degenerate"])
         self.ok("info", only)
 
-    def test_what_an_lr_file_consists_of(self):
+    def test_info_lists_the_sections_of_an_lr_file(self):
         mesh = self.generate("soup", 500)
         for form, kind in (("lean", "lean"), ("packed", "packed"), ("lr", "lr"), ("lr-compact", "lr_compact")):
             for keep in (False, True):
@@ -359,15 +359,15 @@ class Notes(CliTest):
             self.ok("decode", lr, "-o", back, "--force")
         self.assertLess(sizes[1], sizes[0])
         self.assertIn("largest error", self.ok("info", lr).out)
-        # Bits that have no effect are said so.
+        # Bits without effect are reported.
         texts = self.write("t.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n")
         outcome = self.ok("encode", texts, "-o", lr, "--force", "--positions", "20")
         self.assertIn("POSITION stays lossless: that is smaller", outcome.err)
         for options in (["--positions", "0"], ["--positions", "23"], ["--normals", "1"], ["--normals", "17"], ["--weights", "x"]):
             self.fails("encode", mesh, "-o", lr, *options, mentions=[options[0]], codes=(WRONG_USAGE,))
 
-    def test_original_order_to_the_corner(self):
-        """--original-order gives back the input's index list, each triangle beginning with its own first corner."""
+    def test_original_order_restores_first_corners(self):
+        """--original-order restores the input's index list, with the same first corner of each triangle."""
         triangles = [(0, 1, 2), (3, 0, 2), (2, 2, 1), (1, 0, 3), (2, 1, 3)]
         mesh = self.write("m.obj", write.obj(POINTS, triangles))
         for form in ("lean", "packed", "lr", "lr-compact"):
@@ -380,7 +380,7 @@ class Notes(CliTest):
 
 
 class Faults(CliTest):
-    """Processes that are killed, and disks that are full: outputs are whole, old, or absent."""
+    """With killed processes and full disks, an output is complete, the old file, or absent."""
 
     def commands(self):
         mesh = self.generate("blob", 60000)
@@ -413,7 +413,7 @@ class Faults(CliTest):
             os.remove(path)
 
     def test_full_disk(self):
-        """Files may have 20,000 bytes: as on a full disk, a write fails half-way."""
+        """Files are limited to 20,000 bytes: writes fail half-way, as on a full disk."""
         import resource
         commands = self.commands()
 
@@ -427,11 +427,11 @@ class Faults(CliTest):
                 self.fails(*command, self.path(name), mentions=[name], preexec_fn=small_files)
 
     def test_little_memory(self):
-        """With 12 to 64 MiB of data: the whole output, or one line and the old file."""
+        """With 12 to 64 MiB of memory, a command writes the whole output, or prints one line and keeps the old file."""
         import resource
         codes = set()
         for command, name in self.commands():
-            if command[0] == "render":  # what the driver does then is not ours
+            if command[0] == "render":  # the driver may crash without memory
                 continue
             self.write(name, b"old")
             for mebibytes in (64, 48, 32, 24, 20, 16, 12):

@@ -17,7 +17,7 @@ QUICK = {"index_u32", "index_u16", "strip_restart", "strip_degenerate", "lean", 
 
 
 class Scene:
-    """A glTF that grows; its file is a GLB."""
+    """Builds a glTF scene, written as a GLB."""
 
     def __init__(self):
         self.bin = b""
@@ -53,7 +53,7 @@ class Scene:
 
 
 def cube_corners():
-    """A cube whose sides have vertices of their own: positions, normals, texture coordinates, indices."""
+    """Positions, normals, texture coordinates and indices of a cube whose sides share no vertices."""
     points, normals, texture, indices = [], [], [], []
     for quad in QUADS:
         a, b, c = (CUBE[v] for v in quad[:3])
@@ -68,11 +68,11 @@ def cube_corners():
 
 
 def sample():
-    """The scene, and its triangles by hand: positions at corners, where nodes put them."""
+    """The bytes of a scene, and the positions of its placed triangles, computed here."""
     scene = Scene()
     points, normals, texture, indices = cube_corners()
     positions, directions, coordinates = scene.accessor(points), scene.accessor(normals), scene.accessor(texture)
-    half = [scene.accessor(part, U16) for part in (indices[:12], indices[12:])]  # share their vertices
+    half = [scene.accessor(part, U16) for part in (indices[:12], indices[12:])]  # both share the vertices
     strip = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 2, 0)]
     cube = scene.mesh([{"attributes": {"POSITION": positions, "NORMAL": directions, "TEXCOORD_0": coordinates},
                         "indices": i} for i in half], "cube")
@@ -194,8 +194,8 @@ class Scenes(CliTest):
         self.assertEqual(mesh["sum"]["formats"]["index_u32"], mesh["primitives"][0]["formats"]["index_u32"])
         self.assertTrue(all(p["ok"] for p in self.json("verify", path, "--json")["primitives"]))
 
-    def test_joined_is_what_nodes_place(self):
-        """Through an .lr file, against the triangles computed here: winding under the mirror, instances, strips."""
+    def test_joined_mesh_has_the_placed_triangles(self):
+        """Compares the triangles of an .lr file with those computed here: mirrored nodes, instances, strips."""
         lr, ply = self.path("a.lr"), self.path("a.ply")
         said = self.ok("encode", self.scene, "-o", lr).err
         self.assertRegex(said, r"not kept: [^\n]* \(lacedring pack keeps scenes\)\n")
@@ -220,7 +220,7 @@ class Scenes(CliTest):
         self.assertEqual(outcome.code, DONE, str(outcome))
         self.assertNotIn("scene", json.loads(outcome.out))
 
-    def test_others_have_no_primitives(self):
+    def test_other_formats_have_no_primitives(self):
         single = Scene()
         single.node(mesh=single.mesh([{"attributes": {"POSITION": single.accessor([(0, 0, 0), (1, 0, 0), (0, 1, 0)])}}]))
         for path in (self.write("one.ply", write.ply(CUBE, QUADS)), self.write("one.glb", single.glb())):
@@ -245,7 +245,7 @@ class Scenes(CliTest):
         self.assertNotIn("pack", self.ok("decode", lr, "-o", self.path("s.ply")).err)
 
     def test_memory(self):
-        """Attributes that the joined mesh has no place for count, too."""
+        """Attributes that the joined mesh does not have count as memory, too."""
         scene = Scene()
         count = 1 << 17
         scene.document["accessors"].append({"componentType": FLOAT, "count": count, "type": "VEC3"})

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_stored.py LACEDRING: files in storage form, which encode writes unless told otherwise, and what reads them."""
+"""test_stored.py LACEDRING: files in storage form, the default of encode, and commands that read them."""
 
 import os
 import struct
@@ -34,7 +34,7 @@ class Storage(CliTest):
                     self.ok(command, stored)
                 self.assertEqual(self.encode(stored, "--resident")[1], self.encode(self.path("out.ply"), "--resident")[1])
 
-    def test_said(self):
+    def test_reports(self):
         mesh = self.generate("blob", 3000)
         path, small = self.encode(mesh)
         sections = self.json("info", "--json", path)["lr"]["sections"]
@@ -59,8 +59,8 @@ class Storage(CliTest):
         for at in range(0, len(good), 173):
             self.refused(path, good[:at] + bytes([good[at] ^ 0x10]) + good[at + 1 :])
 
-    def test_bomb(self):
-        """A small file that says it has more triangles than a computer holds."""
+    def test_huge_triangle_count(self):
+        """A small file with a huge number of triangles."""
         path, good = self.encode(self.generate("blob", 2000))
         words = list(struct.unpack_from("<8I", good))
         words[4] = 0xF0000000

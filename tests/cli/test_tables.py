@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_tables.py LACEDRING: stats --table, the paper's tables as Markdown, and what they add to the JSON."""
+"""test_tables.py LACEDRING: stats --table, the paper's tables as Markdown and in the JSON."""
 
 import os
 
@@ -14,7 +14,7 @@ def table_of(text):
 
 
 class Tables(CliTest):
-    def test_a_row_a_mesh(self):
+    def test_one_row_per_mesh(self):
         paths = [self.generate(kind, 2000, 2) for kind in ("blob", "parts", "soup")]
         for table, columns in TABLES.items():
             with self.subTest(table):
@@ -27,7 +27,7 @@ class Tables(CliTest):
                 self.assertEqual(len(alone), 1)
         self.fails("stats", paths[0], "--table", "table2", codes=(WRONG_USAGE,))
 
-    def test_the_tables_are_of_the_json(self):
+    def test_tables_equal_the_json(self):
         path = self.generate("blob", 5000, 3)
         mesh = self.json("stats", "--paper", path, "--json")["meshes"][0]
         head, (row,) = table_of(self.ok("stats", "--paper", "--table", "table1", path).out)

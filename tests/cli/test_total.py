@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""test_total.py LACEDRING: stats --table total, whole meshes beside others."""
+"""test_total.py LACEDRING: stats --table total, the sizes of whole meshes in all formats."""
 
 import os
 import re
@@ -13,25 +13,28 @@ BITS = ["--positions", "12", "--normals", "8", "--texcoords", "10"]
 
 class Total(CliTest):
     def total(self, path, *options):
-        """(mesh, versions) of the JSON, whose keys and reasons are checked."""
+        """Returns the mesh of the JSON, after checking keys and reasons."""
         document = self.json("stats", "--table", "total", "--json", path, *options)
         mesh, = document["meshes"]
         self.assertIn("lean", mesh["formats"])
         for name in NAMES:
-            self.assertNotEqual(name in mesh["total"], name in mesh["absent"], name)
+            self.assertNotEqual(name in mesh["total"], name in mesh["absent"], f"{name} is either present or absent")
         self.assertLessEqual(mesh["total"]["storage"]["bytes"], mesh["total"]["packed"]["bytes"])
         compressed = {key for key in ("bytes_zstd", "bytes_brotli") if key not in mesh["absent"]}
         for name, entry in mesh["total"].items():
-            self.assertEqual(set(entry), KEYS | compressed, name)
-            self.assertEqual(entry["random_access"], name in ("raw", "packed", "packed_cache"))
-            for key in compressed:
-                self.assertLess(entry[key], 1.01 * entry["bytes"] + 32)
+            self.check_entry(name, entry, compressed)
         for key in {"bytes_zstd", "bytes_brotli"} - compressed:
             self.assertRegex(mesh["absent"][key], r"\Abuilt without lib\w+\Z")
         self.assertRegex(document["versions"]["meshoptimizer"], r"\A\d+\.\d+, index codec 1, vertex codec [01]\Z")
         if "draco" not in document["versions"]:
             self.assertEqual(mesh["absent"]["draco"], "built without libdraco")
         return mesh
+
+    def check_entry(self, name, entry, compressed):
+        self.assertEqual(set(entry), KEYS | compressed, name)
+        self.assertEqual(entry["random_access"], name in ("raw", "packed", "packed_cache"), name)
+        for key in compressed:
+            self.assertLess(entry[key], 1.01 * entry["bytes"] + 32, f"{name} {key}")
 
     def test_sizes(self):
         globe = self.path("globe.glb")  # positions, normals and texture coordinates, with seams
@@ -84,7 +87,7 @@ class Total(CliTest):
         self.assertNotIn("median", alone)
 
     def test_what_draco_drops(self):
-        """A triangle with two vertices at one place is none to Draco, which joins them. No other figure is lost."""
+        """Draco joins vertices at one position, so a triangle with two of them is lost. All other formats have sizes."""
         path = self.write("x.obj", b"v 0 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/1\nf 1/1 3/1 4/2\n")
         mesh = self.total(path, "--no-weld")
         self.assertIn("meshopt", mesh["total"])

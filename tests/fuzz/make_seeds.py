@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the seeds of every fuzz target: make_seeds.py STREAM_SEEDS_PROGRAM FOLDER makes FOLDER/TARGET/NAME.
 
-Streams come from the program (stream_seeds.cpp), mesh files from here, and what once failed from regressions/TARGET.
+Streams come from the program (stream_seeds.cpp), mesh files from this script, and former failures from regressions/TARGET.
 """
 
 import json
@@ -16,7 +16,7 @@ sys.path.insert(0, str(HERE.parent / "independent"))
 import mesh_writers as w  # noqa: E402
 from scene_seeds import scene_seeds  # noqa: E402
 
-FORMATS = ["any", "gltf", "obj", "off", "ply", "stl"]  # as MeshFormat counts
+FORMATS = ["any", "gltf", "obj", "off", "ply", "stl"]  # in the order of MeshFormat
 
 TETRAHEDRON = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
 QUADS = ([(x * 0.5, y * 1e-3, 0.25) for y in range(3) for x in range(3)],
@@ -56,8 +56,8 @@ def gltf_with(attributes, indices, primitive=None, accessor=None, **more):
             struct.pack("<II", len(blob), 0x004e4942) + blob)
 
 
-# The tetrahedron: its positions (plain, and for the exponential filter) and indices by meshoptimizer's three codecs, four normals for
-# the octahedral filter; and by Draco, with texture coordinates, edgebreaker and sequential.
+# A tetrahedron compressed by meshoptimizer (positions, also for the exponential filter; indices; four normals for the octahedral filter)
+# and, with texture coordinates, by Draco (edgebreaker and sequential).
 MESHOPT = {name: bytes.fromhex(data) for name, data in {
     "plain": "a00000013c000000ffff013c0000007e7d0000010f000000ffff010f0000007e7d00000103000000ff01030000007e" + 64 * "0",
     "exponential": "a000013c000000403f000130000000ca00010f000000403f000130000000ca00010300000040000130000000ca" + 40 * "0" +
@@ -196,7 +196,7 @@ def stl_seeds():
 
 
 def regressions():
-    """Inputs that once failed: as they are, or in hexadecimal digits where the name ends in .hex."""
+    """Inputs that once failed. A file NAME.hex has the bytes as hexadecimal digits."""
     for path in sorted((HERE / "regressions").glob("*/*")):
         data = path.read_bytes()
         yield path.parent.name, path.stem, bytes.fromhex(data.decode()) if path.suffix == ".hex" else data

@@ -135,7 +135,7 @@ class Scene {
         }
     }
 
-    /// Writes the binary chunk anew.
+    /// Rewrites the binary chunk.
     void lay_out() {
         if (places_.empty()) return;
         bin_.clear();

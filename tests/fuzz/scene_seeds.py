@@ -1,4 +1,4 @@
-"""Small scenes that packing makes several streams, sets and parts of, coded views and placeholders."""
+"""Small scenes whose packed form has several streams, sets and parts, coded views and placeholders."""
 
 import math
 import pathlib
@@ -24,13 +24,13 @@ def colors(count):
 
 
 def scene_of(meshes, **more):
-    """The members of a document whose nodes show each mesh, which is a list of primitives, once."""
+    """The members of a document with one node per mesh. A mesh is a list of primitives."""
     return {"asset": {"version": "2.0"}, "meshes": [{"primitives": primitives} for primitives in meshes],
             "nodes": [{"mesh": i} for i in range(len(meshes))], "scenes": [{"nodes": list(range(len(meshes)))}], "scene": 0, **more}
 
 
 def two_sets(w):
-    """Two meshes of two parts each, all in one stream: they meet."""
+    """Two meshes of two parts each, which touch and so are one stream."""
     meshes = []
     for at in (0, 3):
         points, corners = grid(4, at)
@@ -43,7 +43,7 @@ def two_sets(w):
 def kinds(w):
     """Streams of three kinds: with seams, of integers, and with a morph target."""
     points, corners = grid(3)
-    cut = [points[v] for v in corners]  # each triangle apart: seams
+    cut = [points[v] for v in corners]  # triangles share no vertices: all edges are seams
     seams = {"attributes": {"POSITION": w.positions(cut), "COLOR_0": w.attribute(colors(len(cut)), "VEC3", "B", True)},
              "indices": w.indices(range(len(cut)), "B")}
     integers = [tuple(round(20 * x) for x in p) for p in points]
@@ -54,7 +54,7 @@ def kinds(w):
 
 
 def animated(w):
-    """Coded views: times and translations, rotations, and values that nobody knows; points that need the order."""
+    """Coded views of times, translations, rotations and other values, and points, which need the order of vertices."""
     points, corners = grid(3)
     positions = w.positions(points)
     times = w.accessor([(0.1 * i,) for i in range(60)], "SCALAR", limits=True)

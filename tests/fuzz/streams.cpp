@@ -202,7 +202,7 @@ void mend_blocks(Words& words) {
     words = std::move(out);
 }
 
-/// Mends mostly the blocks and padding, and the checksum (docs/vertex-format.md).
+/// Sets the checksum and, mostly, the table of blocks and the padding to valid values (docs/vertex-format.md).
 void mend_vertices(Words& words, Random& random) {
     constexpr std::size_t checksum = 3;
     if (words.size() < LACEDRING_VERTICES_HEADER_WORDS + 2) return;

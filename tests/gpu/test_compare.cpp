@@ -125,7 +125,7 @@ TEST_CASE_FIXTURE(GpuTest, "coinciding triangles in any order and rotation have 
         for (const std::size_t k : {std::size_t{2}, std::size_t{3}, std::size_t{1}})
             mesh.indices.push_back(once[i - k]);
     }
-    for (std::size_t i = 0; i < once.size(); i += 3) {  // and flipped
+    for (std::size_t i = 0; i < once.size(); i += 3) {  // then all triangles flipped
         for (const std::size_t k : {std::size_t{2}, std::size_t{1}, std::size_t{0}})
             mesh.indices.push_back(once[i + k]);
     }

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Does a decoded mesh hold exactly the triangles of the mesh that was encoded?
+"""Checks that a decoded mesh has exactly the triangles of the encoded mesh.
 
-    check_decode.py INPUT OUT.ply             what `lacedring decode` wrote
+    check_decode.py INPUT OUT.ply             the output of `lacedring decode`
     check_decode.py INPUT --lr FILE.lr        the .lr file itself, decoded here (both may be given)
 
-INPUT is OBJ, PLY, OFF, STL, glTF or GLB. Compared are the multisets of oriented triangles, each as the bits of its three
-positions, rotated so that the least comes first; triangles that repeat a vertex of INPUT are dropped. With
---weld=position those that repeat a position are dropped too, as `encode --weld=position` does. Where FILE.lr keeps the
-order of triangles, that is compared, too, and of LR tables every c.o is checked (lr_corners.py).
+INPUT is OBJ, PLY, OFF, STL, glTF or GLB. Compares the multisets of oriented triangles, each as the bits of its three
+positions, rotated to begin with the smallest. Drops triangles that repeat a vertex of INPUT, and with --weld=position those
+that repeat a position, as `encode --weld=position` does. Compares the order of triangles, too, if FILE.lr keeps it, and
+checks every c.o of LR tables (lr_corners.py).
 Shares no code with lrcore. Prints one line; exits 0 if the multisets are equal, 1 if not or if a file cannot be read.
 """
 
@@ -39,7 +39,7 @@ def read(path):
 
 
 def multiset(mesh, numbers, weld_position=False):
-    """Counter of triangles, each one integer made of the numbers of its positions. `numbers` is shared by the meshes."""
+    """Counts triangles, each given as one integer made of its positions' numbers. Meshes to compare share `numbers`."""
     of_vertex = [numbers.setdefault(position, len(numbers)) for position in mesh.positions]
     triangles = []
     dropped = 0
@@ -50,7 +50,7 @@ def multiset(mesh, numbers, weld_position=False):
             dropped += 1
             continue
         if a <= b and a <= c:
-            if a == c and b > a:  # the least twice: (a, a, b) is the least rotation
+            if a == c and b > a:  # the smallest twice: (a, a, b) is the first rotation
                 a, b, c = a, a, b
         elif b <= c:
             a, b, c = b, c, a
@@ -70,7 +70,7 @@ def compare(wanted, got):
 
 
 def in_order(mesh, decoded):
-    """Does each triangle of the .lr file begin with the mesh's corner that the file gives?"""
+    """Whether each triangle of the .lr file begins with the mesh's corner that the file's corner order names."""
     for i, corner in enumerate(decoded.corner_order):
         t, first = divmod(corner, 3)
         wanted = [mesh.indices[3 * t + (first + k) % 3] for k in range(3)]
@@ -108,7 +108,7 @@ def main():
     except (BadFile, OSError, ValueError, KeyError, IndexError, TypeError) as error:
         print(f"FAIL {path}: cannot be read: {type(error).__name__}: {' '.join(str(error).split())}")
         return 1
-    except Exception as error:  # struct.error and the like: still one line
+    except Exception as error:  # such as struct.error; prints one line
         print(f"FAIL {path}: cannot be read: {type(error).__name__}: {error}")
         return 1
     print(f"ok {options.input}: {count} triangles, {dropped} degenerate")

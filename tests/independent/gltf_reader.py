@@ -1,7 +1,7 @@
 """A glTF and GLB reader: all triangles of the default scene, node transforms applied, nodes depth first.
 
-The arithmetic is fixed, so that two programs can agree on every bit: doubles, in the order in which it is written here,
-rounded to 32-bit floats once at the end. An identity transform leaves the file's floats alone.
+The arithmetic is fixed, so that two programs get the same bits: doubles, in the order written here, rounded to 32-bit
+floats once at the end. An identity transform does not change the file's floats.
 """
 
 import array
@@ -90,7 +90,7 @@ class Gltf:
         return [item.unpack_from(data, start + i * stride) for i in range(count)]
 
     def accessor(self, index, raw_floats=False):
-        """The accessor's tuples; normalized integers as doubles. With raw_floats 32-bit floats come as their bits."""
+        """The accessor's tuples; normalized integers are doubles. With raw_floats, 32-bit floats are given as their bits."""
         a = self.json["accessors"][index]
         kind, width, count = COMPONENT[a["componentType"]], WIDTH[a["type"]], a["count"]
         read_kind = "I" if raw_floats and kind == "f" else kind
@@ -127,7 +127,7 @@ class Gltf:
             if parent is not None:
                 matrix = multiply(parent, matrix)
             if "mesh" in node:
-                out.append((node["mesh"], IDENTITY if "skin" in node else matrix))  # joints alone place a skinned mesh
+                out.append((node["mesh"], IDENTITY if "skin" in node else matrix))  # a skinned mesh is placed by its joints only
             stack += [(child, matrix) for child in reversed(node.get("children", []))]
         return out
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""gltf_unpack.py PACKED UNPACKED: decodes a glTF with LACEDRING_mesh_compression and compares it with what unpack made of it.
+"""gltf_unpack.py PACKED UNPACKED: decodes a glTF with LACEDRING_mesh_compression and compares it with the output of `unpack`.
 
 Written from docs/gltf/LACEDRING_mesh_compression alone; shares no code with the libraries. Exit code 1: they differ.
 """
@@ -94,7 +94,7 @@ def float_of(bits):
 
 
 def float_bits(value):
-    """Of the nearest float; None: it is not finite."""
+    """The bits of the nearest float; None if it is not finite."""
     try:
         bits, = struct.unpack("<I", struct.pack("<f", value))
     except OverflowError:
@@ -113,7 +113,7 @@ def decode_floats(data, size):
     if len(lengths) != base + rows * width or max(lengths[base:], default=0) > 32 or max(lengths[:base], default=0) > 7:
         raise BadFile("floats: lengths that are not valid")
     bits, left = int.from_bytes(data[8 + packed:], "little"), 8 * (len(data) - 8 - packed)
-    stack = []  # rows of bits
+    stack = []  # decoded rows, as bits of floats
     for i in range(rows):
         codes = []
         for c in range(width):
@@ -151,7 +151,7 @@ def decode_floats(data, size):
 
 
 class PackedScene(Scene):
-    """A packed glTF as Scene has plain ones: accessor() and view() give what decoding gives."""
+    """A packed glTF with the interface of Scene: accessor() and view() return decoded data."""
 
     def __init__(self, path):
         super().__init__(path)
@@ -164,7 +164,7 @@ class PackedScene(Scene):
             if "document" in extension:
                 raise BadFile("a packed document in a packed document")
         self.streams = extension["streams"]
-        self.set_of = {}  # stream and set of an accessor
+        self.set_of = {}  # by accessor: its stream and set
         for s, stream in enumerate(self.streams):
             for number, accessors in enumerate(stream["sets"]):
                 for accessor in accessors:
@@ -200,9 +200,9 @@ class PackedScene(Scene):
         return sets.pop() if len(sets) == 1 else None
 
     def find_parts(self):
-        """self.parts: of each stream {part: (set, index accessor)}."""
+        """Sets self.parts: for each stream, {part: (set, index accessor)}."""
         self.parts = [{} for _ in self.streams]
-        self.compressed = []  # primitives
+        self.compressed = []  # compressed primitives
         numbers = {}
         for _, _, primitive in self.primitives():
             extension, of = extension_of(primitive), self.set_of_primitive(primitive)
@@ -261,7 +261,7 @@ class PackedScene(Scene):
                     owner[v] = parts[part][0]
         if len(owner) != len(kept) or None in owner:
             raise BadFile("a vertex of no set")
-        vertices = [[] for _ in sets]  # of the file, set by set
+        vertices = [[] for _ in sets]  # by set: vertices of the file
         place = []
         for v, s in enumerate(owner):
             place.append(len(vertices[s]))
@@ -283,7 +283,7 @@ class PackedScene(Scene):
 
     @staticmethod
     def values(accessor, attribute, vertices):
-        """Elements as Scene has them: 32-bit floats by their bits."""
+        """Elements as in Scene: 32-bit floats are given as their bits."""
         rows, columns = SHAPE[accessor["type"]]
         kind, stored = FORMAT[accessor["componentType"]], TYPES[attribute.type]
         if rows * columns != attribute.components or stored not in (kind, "f") or attribute.v_up:
@@ -308,7 +308,7 @@ class PackedScene(Scene):
 
 def check_bounds(scene, accessor):
     a, values = scene.json["accessors"][accessor], scene.numbers(accessor)
-    if a["componentType"] != 5126:  # bounds are of the integers themselves
+    if a["componentType"] != 5126:  # the bounds are integers
         values = scene.accessor(accessor)
     for name, pick in (("min", min), ("max", max)):
         told = [struct.unpack("<f", struct.pack("<f", x))[0] for x in a[name]]
@@ -317,7 +317,7 @@ def check_bounds(scene, accessor):
 
 
 def compare(packed, unpacked):
-    """What differs, a line each. Also checks what a fallback has, and the bounds of positions."""
+    """Returns the differences, one line each. Also checks the fallback's data and the bounds of positions."""
     mine, theirs, out = PackedScene(packed), Scene(unpacked), []
     for scene in (theirs,) if mine.is_document_packed else (mine, theirs):
         for primitive in mine.compressed:

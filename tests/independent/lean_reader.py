@@ -8,13 +8,13 @@ TIP_MASK, WART, CLOSE, FLIP = 0x1FFFFFFF, 0x80000000, 0x40000000, 0x20000000
 
 
 def decode_lean(words):
-    """Vertices, and the triangles that are not degenerate, flat. `words`: the whole stream, header included."""
+    """The number of vertices, and a flat list of the triangles that are not degenerate. `words`: the whole stream."""
     vertices, slots = decode_lean_slots(words)
     return vertices, [v for slot in slots for v in slot]
 
 
 def decode_lean_slots(words):
-    """Vertices, and the triangle of each slot, or () where it has none."""
+    """The number of vertices, and the triangle of each slot, () if it has none."""
     if len(words) < 8 or words[0] != 0x4E4C524C or words[1] != 1:
         raise BadFile("not a lean stream of version 1")
     vertices, rings2, rings1, verbatim, triangles, checksum = words[2:8]
@@ -27,7 +27,7 @@ def decode_lean_slots(words):
     if zlib.crc32(payload.tobytes(), zlib.crc32(words[:7].tobytes())) != checksum:
         raise BadFile("the lean stream's checksum is wrong")
 
-    # next(v) of every ring vertex: the one after it, but for the last of a ring
+    # next(v) of every ring vertex is v + 1, except at the end of a ring.
     following = list(range(1, rings2 + rings1 + 1))
     first = 0
     for v in range(rings2 + rings1):
@@ -55,7 +55,7 @@ def decode_lean_slots(words):
         tip = w & TIP_MASK
         b = following[v]
         if w == (v if left else b):
-            continue  # free
+            continue  # a slot without a triangle
         if w & WART:
             b = following[b]
         if tip == v or tip == b:

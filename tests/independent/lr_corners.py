@@ -1,4 +1,4 @@
-"""c.o, the corner facing a corner, from LR tables by the rules of docs/lr-tables.md; and a check of all of them."""
+"""c.o, the opposite of a corner, from LR tables by the rules of docs/lr-tables.md, and a check of all corners."""
 
 from collections import Counter
 
@@ -32,13 +32,13 @@ class Corners:
         return 2 * v + s % 2
 
     def canonical(self, s, role):
-        """The corner of a slot's triangle; the triangle of a first copy is in the next slot, or the one behind."""
+        """The corner of a slot's triangle. If the slot is a redundant first copy, the corner is of the second copy."""
         while self.tables.kind[s] == REDUNDANT:
             s, role = self.at(self.tables.next[s >> 1], s), (TIP, END, START)[role]
         return NULL if self.tables.kind[s] == BORDER else corner(s, role)
 
     def across_ring_edge(self, s):
-        """The corner that faces the ring edge (v, v.n) on the side of s."""
+        """The corner opposite to the ring edge (v, v.n) on the side of s."""
         if self.is_wart(s):
             return self.canonical(self.at(self.tables.next[s >> 1], s), END)
         return self.canonical(s, TIP)
@@ -89,7 +89,7 @@ class Corners:
 
 
 def check_corners(tables):
-    """Do c.o, for all corners, say which triangles are neighbours; has each vertex one fan; is C right?"""
+    """Checks that c.o of all corners joins neighboring triangles, that each vertex has one fan, and that C is valid."""
     corners = Corners(tables)
     vertex = {4 * t + i: v for t, triangle, _ in tables.triangles() for i, v in enumerate(triangle)}
     opposite = {c: corners.opposite(c) for c in vertex}

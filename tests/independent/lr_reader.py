@@ -17,10 +17,10 @@ from stored_vertices import read_stored_vertices
 from vertex_reader import DECIMALS, LATTICE, read_vertices
 
 ATTRIBUTE, VERTEX_ORDER, CORNER_ORDER, VERTEX_STREAM, SEAMS = 2, 3, 4, 8, 9
-STORAGE = 1 << 16  # added here to the kind of a section in storage form
+STORAGE = 1 << 16  # added by sections() to the kind of a section in storage form
 STORED_PACKED, STORED_VERTICES, STORED_SEAMS = STORAGE + 7, STORAGE + VERTEX_STREAM, STORAGE + SEAMS
 NORMALIZED, V_UP, PER_COPY = 1 << 16, 1 << 17, 1 << 18  # bits of an attribute's layout
-LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY, STORED_VERTICES: V_UP | PER_COPY}  # that may be set
+LAYOUT_BITS = {ATTRIBUTE: 0x7FFFF, VERTEX_STREAM: V_UP | PER_COPY, STORED_VERTICES: V_UP | PER_COPY}  # allowed bits
 
 
 def tables_in(words, compact):
@@ -39,8 +39,8 @@ def packed_in(words):
     return vertices, list(zip(corners, corners, corners)), {}
 
 
-# Each takes all words of a stream and returns its vertices, the triangle of each slot, () where there is none, and a dict
-# from the extra vertices of LR tables to their originals, which triangles name.
+# Decoders by section kind. Each takes the words of a stream and returns its number of vertices, the triangle of each slot (()
+# if it has none), and a dict from the extra vertices of LR tables to their originals, which the triangles name.
 DECODERS = {1: lambda words: (*decode_lean_slots(words), {}), 5: lambda words: tables_in(words, False),
             6: lambda words: tables_in(words, True), 7: packed_in,
             STORED_PACKED: lambda words: (*read_stored_packed(words), {})}
@@ -80,17 +80,17 @@ def sections(data):
 
 
 class Attributes:
-    """Reads attributes. Where some may be stored, connectivity and seams have to be known: `slots`, triangles of vertices;
-    `copy_slots`, of copies; `vertex_of`, the vertex of each copy."""
+    """Reads attributes. Storage form needs the connectivity and seams: `slots`, the triangles of vertices; `copy_slots`, those
+    of copies; `vertex_of`, the vertex of each copy."""
 
     def __init__(self, data, slots=(), copy_slots=(), vertex_of=None):
         self.vertices, _, self.copies = struct.unpack_from("<3I", data, 12)
         self.triangles, self.copy_triangles = ([t for t in all_slots if t] for all_slots in (slots, copy_slots))
         self.vertex_of = vertex_of
-        self.positions = None  # integers of the first attribute, once it is read
+        self.positions = None  # integers of the first attribute after it is read
 
     def read_all(self, parts):
-        """In the file's order, and of each whether it has a value for each copy. `parts`: the file's sections."""
+        """Reads all attributes in the file's order, each with whether it has a value per copy. `parts`: the file's sections."""
         parts = [part for part in parts if part[0] in LAYOUT_BITS]
         out = [self.read(*part, is_first=i == 0) for i, part in enumerate(parts)]
         per_copy = [layout & PER_COPY != 0 for _, _, layout, _ in parts]
@@ -134,7 +134,7 @@ class Attributes:
 
 
 def order(parts, kind):
-    """What the file keeps of the order of the mesh that it was made from, or None."""
+    """The file's vertex or corner order, or None."""
     found = [array.array("I", contents) for k, contents, _, _ in parts if k == kind and contents]
     if len(found) > 1:
         raise BadFile("an order is there twice")
@@ -142,7 +142,7 @@ def order(parts, kind):
 
 
 def copies_of(data, parts, slots, vertices):
-    """The copies of the slots' corners, and the vertex of each copy, None where there are no seams."""
+    """The copy of each corner of the slots, and the vertex of each copy; None without seams."""
     found = [(kind, contents) for kind, contents, _, _ in parts if kind in SEAM_READERS and contents]
     copies, = struct.unpack_from("<I", data, 20)
     if len(found) != (copies > 0):
@@ -157,7 +157,7 @@ def copies_of(data, parts, slots, vertices):
 
 
 def read_lr(data):
-    """The mesh over the copies, extra ones included. `copies` maps these to their originals' first ones."""
+    """The mesh of the copies, with extra vertices. `copies` maps extra vertices to the first copies of their originals."""
     parts = sections(data)
     vertices, triangles = struct.unpack_from("<II", data, 12)
     streams = [(kind, contents) for kind, contents, _, _ in parts if kind in DECODERS]

@@ -48,7 +48,7 @@ class Tables:
         self.flags.append(flags)
 
     def add_word(self, word, index, tip):
-        """A standard slot's word; index: where an irregular one's tip and opposites are, or None if tip is its tip."""
+        """Adds a slot by its standard word. index: the place of an irregular slot's tip and opposites; None if `tip` is its tip."""
         s = len(self.kind)
         if word & SPECIAL:
             kinds = {0: REDUNDANT, WART: CLOSING, IRREGULAR: BORDER}
@@ -91,7 +91,7 @@ class Tables:
                 at += 2
 
     def link_rings(self):
-        """v.n and v.p: a ring ends at a closing slot. Closing slots are redundant ones from then on."""
+        """Finds v.n and v.p; a ring ends at a closing slot. Then makes closing slots redundant."""
         self.next = list(range(1, self.ring + 1))
         self.previous = list(range(-1, self.ring - 1))
         first = 0
@@ -116,7 +116,7 @@ class Tables:
                 raise BadFile(f"slot {s} is redundant, and its tip is not two further")
 
     def check_pairs(self):
-        """Behind a first copy of a T2, or a T0w in its place, is the second copy, or a ring of three is all copies."""
+        """Checks that a first copy of a T2, or a T0w in its place, is followed by the second copy, or is in a ring of three copies."""
         for s, kind in enumerate(self.kind):
             if kind == REDUNDANT or (kind == TRIANGLE and self.flags[s] & WART):
                 v, behind = s >> 1, 2 * self.next[s >> 1] + s % 2
@@ -133,7 +133,7 @@ class Tables:
         return self.next[after] if self.flags[s] & WART else after
 
     def triangles(self):
-        """(number, its three vertices, flipped) of all canonical triangles, by number."""
+        """(number, three vertices, flipped) of all canonical triangles, ordered by number."""
         for s, kind in enumerate(self.kind):
             if kind == TRIANGLE:
                 v, end = s >> 1, self.end(s)
@@ -144,7 +144,7 @@ class Tables:
 
 
 def decode_tables(tables):
-    """Vertices, triangles, flat, and copies to their originals."""
+    """The number of vertices, a flat list of triangles, and a dict from copies to originals."""
     triangles = list(tables.triangles())
     used = tables.ring + len(tables.isolated)
     for _, corners, _ in triangles:

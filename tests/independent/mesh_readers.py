@@ -1,8 +1,8 @@
-"""Readers of OBJ, PLY, OFF and STL that know nothing of lrcore.
+"""Readers of OBJ, PLY, OFF and STL that share no code with the libraries.
 
-Every reader returns a Mesh: one bytes object a vertex (the bits of its position: three little-endian floats, or three
-doubles where a PLY file has doubles), and a flat list of vertex numbers, three a triangle, in the file's orientation.
-Whatever makes two corners the same vertex in the file's own terms gives them the same number.
+Every reader returns a Mesh: a bytes object per vertex with the bits of its position (three little-endian floats, or doubles
+if a PLY file has doubles), and a flat list of vertex numbers, three per triangle, in the file's orientation. Corners that are
+the same vertex by the rules of the file's format have the same number.
 """
 
 import array
@@ -25,12 +25,12 @@ class Mesh:
     def __init__(self, positions, indices):
         self.positions = positions
         self.indices = indices
-        self.vertex_order = self.corner_order = None  # of an .lr file that keeps them
-        # Only .lr files have attributes, an entry for each vertex, and copies, a dict to their originals.
+        self.vertex_order = self.corner_order = None  # only of .lr files that keep the order
+        # Only .lr files have attributes, with an entry per vertex, and copies, a dict from copies to originals.
         self.attributes, self.copies = None, {}
 
 
-TYPES = "bBhHiIfd"  # struct's format characters of an attribute's types, which have the numbers 0 to 7
+TYPES = "bBhHiIfd"  # format characters of struct, by the number of an attribute's type
 
 
 @dataclass
@@ -64,7 +64,7 @@ def nearest_float(word):
 
 
 def floats_of_words(words):
-    """Decimals to an array of 32-bit floats, each rounded once. Through a double is the same but for its exact ties."""
+    """Decimals as an array of 32-bit floats, rounded once. Rounding by way of a double differs only at exact ties."""
     doubles = array.array("d", map(float, words))
     out = array.array("f", doubles)
     bits = array.array("Q", doubles.tobytes())
@@ -81,7 +81,7 @@ def unpack(key):
 
 
 def add_polygon(corners, keys, out, vertex=lambda corner: corner):
-    """The triangles of a polygon. `keys` are positions, `vertex` gives a corner's place among them."""
+    """Adds the triangles of a polygon. `keys` are positions, vertex(corner) is a corner's index in them."""
     if len(corners) == 3:
         out += corners
     elif len(corners) > 3:
@@ -104,7 +104,7 @@ COMMENT = re.compile(rb"(?<!1\.)#.*|#(?!(?i:IND|INF|QNAN|SNAN)).*")  # "1.#IND" 
 
 
 def obj_statements(data):
-    """The words of each statement: lines that end in a backslash joined, comments left out."""
+    """The words of each statement. Joins lines that end with a backslash, and removes comments."""
     words = []
     for line in data.splitlines():
         text = COMMENT.sub(b"", line)
@@ -148,7 +148,7 @@ def read_obj(data):
     for corners in faces:
         add_polygon(corners, keys, triangles, lambda corner: corner[0])
     for v, vt, vn in triangles:
-        # what the file has none of at all is not there
+        # References are ignored if the file has no texture coordinates or normals at all.
         corner = (v, vt if counts[1] else None, vn if counts[2] else None)
         number = numbers.get(corner)
         if number is None:
@@ -181,7 +181,7 @@ def off_faces(lines, count, by_line):
     at = 0
     for _ in range(count):
         words = list(lines[at])
-        while len(words) < 1 + int(words[0]):  # goes on in the next line
+        while len(words) < 1 + int(words[0]):  # continues in the next line
             at += 1
             words += lines[at]
         faces.append([int(word) for word in words[1:1 + int(words[0])]])
@@ -251,7 +251,7 @@ def read_stl(data):
         for t in range(count):
             at = 84 + 50 * t + 12
             corners += (data[at:at + 12], data[at + 12:at + 24], data[at + 24:at + 36])
-    numbers = {}  # -0 is where 0 is
+    numbers = {}  # -0 and 0 are the same position
     indices = [numbers.setdefault(tuple(x + 0.0 for x in unpack(corner)), len(numbers)) for corner in corners]
     positions = {}
     for number, corner in zip(indices, corners):
@@ -299,7 +299,7 @@ def ply_header(data):
 
 
 class AsciiRows:
-    """The values of an element, from all the words of the file, or from one line for each element."""
+    """Reads the values of an element from the words of the file, or from one line per element."""
 
     def __init__(self, data, at, by_line):
         self.by_line = by_line
@@ -352,7 +352,7 @@ class BinaryRows:
     def rows(self, element):
         data, at, order = self.data, self.at, self.order
         if len(element.properties) == 1 and element.properties[0][2] is not None:
-            # Triangles only is the common case, and one call unpacks them all.
+            # If all are triangles, the common case, one call unpacks all.
             _, kind, count_type = element.properties[0]
             row = struct.Struct(order + count_type + "3" + kind)
             stop = at + row.size * element.count
@@ -396,7 +396,7 @@ def read_ply(data):
     elements, order, at = ply_header(data)
     if order != "":
         return read_ply_elements(elements, BinaryRows(data, at, order), False)
-    # One element a line, if there are as many; what is over in a line is skipped.
+    # Elements are read by line if there are as many lines; the rest of a line is skipped.
     lines = sum(1 for line in data[at:].splitlines() if line.strip())
     if lines == sum(element.count for element in elements if element.properties):
         try:
@@ -408,7 +408,7 @@ def read_ply(data):
 
 def read_ply_elements(elements, source, is_text):
     positions = None
-    polygons = []  # and triangles of strips, which are never cut otherwise
+    polygons = []  # with the triangles of strips
     for element in elements:
         names = [name for name, _, _ in element.properties]
         if not names:
@@ -451,7 +451,7 @@ def read_ply_elements(elements, source, is_text):
 
 
 def ply_attributes(data):
-    """The attributes of a binary PLY file that `lacedring decode` wrote: its comments tell what each consists of."""
+    """The attributes of a binary PLY file of `lacedring decode`, whose comments name the properties of each."""
     elements, order, at = ply_header(data)
     vertex = elements[0]
     if vertex.name != "vertex" or order != "<" or any(count_type is not None for _, _, count_type in vertex.properties):

@@ -1,4 +1,4 @@
-"""Writers of every mesh format, for tests. They write what tests ask for, sensible or not."""
+"""Writers of every mesh format. They write valid and invalid files."""
 
 import base64
 import json
@@ -34,7 +34,7 @@ PLY_TYPES = {"f": "float", "d": "double", "b": "char", "B": "uchar", "h": "short
 
 
 def ply_of_attributes(columns, indices):
-    """columns: (name, type, flags of the comment, the values of each vertex), positions first."""
+    """columns: (name, type, flags of the comment, values by vertex), positions first."""
     head, rows, properties = "ply\nformat binary_little_endian 1.0\n", [b""] * len(columns[0][3]), []
     for name, code, flags, values in columns:
         width = len(values[0])
@@ -49,7 +49,7 @@ def ply_of_attributes(columns, indices):
 
 
 def decoded(points, triangles):
-    """As `lacedring decode` writes it."""
+    """A PLY file as `lacedring decode` writes it."""
     head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
             f"property float z\nelement face {len(triangles)}\nproperty list uchar uint vertex_indices\nend_header\n")
     return (head.encode() + b"".join(struct.pack("<3f", *p) for p in points) +

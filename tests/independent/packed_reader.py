@@ -11,14 +11,14 @@ from mesh_readers import BadFile
 WORD = 0xFFFFFFFF
 MAGIC, MAGIC_1 = 0x3250524C, 0x4B50524C
 SPLIT, BESIDE, START, FAR, JUMP, TURN, FLIPS = range(7)
-THIRD_VERTEX = (SPLIT, FAR, JUMP)  # the events that give a triangle's third vertex
-PARTED, PLAIN = 1, 2  # kinds of blocks; those of kind 0 are one record
-HIGH = 1 << 31  # of the header's vertices: there are doubles; of a run's own triangle: turned round
+THIRD_VERTEX = (SPLIT, FAR, JUMP)  # events that name a triangle's third vertex
+PARTED, PLAIN = 1, 2  # kinds of blocks; kind 0 is a single record
+HIGH = 1 << 31  # in the word of vertices: there are doubles; in a run: its doubles are flipped
 HEAD_BYTES = 192  # a group's head has at most 32 + 15 + 16 * 59 + 2 * 16 + 16 * 16 + 15 * 12 bits
 
 
 class Bits:
-    """Fields of a byte string, from its lowest bit."""
+    """Reads fields of a byte string, from its lowest bit."""
 
     def __init__(self, data):
         self.rest = int.from_bytes(data, "little")
@@ -57,7 +57,8 @@ class Bits:
 
 
 class Header:
-    """The stream's header, and where its parts are. `triangles`: the own ones; `doubles`: how many; `runs`: of them."""
+    """The stream's header and the positions of its parts. `triangles`: number of own triangles; `doubles`: of doubles; `runs`: of
+    runs of doubles."""
 
     def __init__(self, words):
         if len(words) >= 1 and words[0] == MAGIC_1:
@@ -110,7 +111,7 @@ class Head:
         self.places = [size] + [size + (k + 1) * step + offset for k, offset in enumerate(offsets)]
 
     def entry(self, k):
-        """The entry of block k, which is not plain: its own, or from that of the last block before with one."""
+        """The entry of block k, which is not plain: its own, or derived from the last preceding block with an own entry."""
         last = max((j for j in range(k + 1) if self.own[j]), default=0)
         a, b, is_reversed = self.entries[sum(self.own[:last + 1])]
         distance = k - last
@@ -120,7 +121,7 @@ class Head:
         return to & WORD, to + (b - a) - 256 * distance & WORD, is_reversed
 
     def check_blocks(self):
-        """What may be in the fields of a block of its kind."""
+        """Checks the fields of blocks by their kind."""
         if self.kinds[0] == PLAIN and any(self.entries[0]):
             raise BadFile("a group's head has an entry for a plain block")
         for k, kind in enumerate(self.kinds):
@@ -135,7 +136,7 @@ class Head:
 
 
 def read_event(bits, head, triangles):
-    """Gap, code, and the numbers that the event's code calls for."""
+    """Gap, code, and the numbers that belong to the code."""
     gap, code = bits.rice(head.gap_bits), bits.unary(7)
     if code == SPLIT:
         size = 3 + bits.golomb(head.split_order)
@@ -168,7 +169,7 @@ def read_event(bits, head, triangles):
 
 
 class Record:
-    """A record's entry, its events as (triangle, code, numbers), and its warts as ranks among the candidates."""
+    """A record: its entry, its events (triangle, code, numbers), and its warts as ranks among the candidates."""
 
     def __init__(self, data, entry, head, triangles):
         bits = Bits(data)
@@ -199,7 +200,7 @@ class Record:
 
 
 class Walk:
-    """The state of a record's reader, and what each event does to it."""
+    """The state of a record's reader, changed by events and turns."""
 
     def __init__(self, entry, triangles):
         self.a, self.b, self.reversed = self.begun = entry
@@ -231,7 +232,7 @@ class Walk:
         self.finished = False
 
     def before(self, code, numbers):
-        """An event that comes before a triangle."""
+        """Applies an event that precedes a triangle."""
         a, b, was_reversed = self.begun
         if code == TURN:
             self.reversed ^= 1
@@ -250,7 +251,7 @@ class Walk:
                 self.begin(first, first + 2 + numbers[-1], 0 if kind == 1 else was_reversed)
 
     def follow(self):
-        """Begins the polygon behind the one begun last, if the walk is finished; true if it was."""
+        """If the walk is finished, begins the polygon behind the last begun one. Returns whether it was finished."""
         if not self.finished:
             return False
         if self.scopes:
@@ -261,7 +262,7 @@ class Walk:
         return True
 
     def third_vertex(self, i, turn, code, numbers):
-        """x of triangle i, which an event gives."""
+        """x of triangle i, named by an event."""
         a, b = self.a, self.b
         self.finished = False
         if code == FAR:
@@ -281,7 +282,7 @@ class Walk:
         return x
 
     def step(self, turn, required_last):
-        """x of a triangle without such an event."""
+        """x of a triangle that no event names."""
         x = self.a + 1 if turn else self.b - 1
         if turn:
             self.a = x & WORD
@@ -294,7 +295,7 @@ class Walk:
 
 
 def wart_triangles(record, turns):
-    """The triangles of the record at which warts are."""
+    """The triangles of the record that have warts."""
     candidates = [i for i, turn in enumerate(turns) if i + 1 == len(turns) or turns[i + 1] == turn]
     if record.warts and record.warts[-1] >= len(candidates):
         raise BadFile("a wart is behind the last candidate")
@@ -305,7 +306,7 @@ def wart_triangles(record, turns):
 
 
 def walk_record(record, turns, out):
-    """Appends the triangles of one record. `turns`: of each triangle."""
+    """Appends the triangles of one record. `turns`: by triangle."""
     walk = Walk(record.entry, len(turns))
     warts = wart_triangles(record, turns)
     flips = record.events[0][2][0] if record.events and record.events[0][1] == FLIPS else 0
@@ -339,7 +340,7 @@ def walk_record(record, turns, out):
 
 
 def parts(data):
-    """The records of a parted block, in 64 triangles each."""
+    """The records of a parted block, each of 64 triangles."""
     at = 4
     for size in data[:4]:
         yield data[at:at + size]
@@ -359,7 +360,7 @@ def decode_parted(data, entry, turns, head, out):
 
 
 def decode_group(data, turns, width, out):
-    """Returns how many bytes the group has, but those that fill up its last word."""
+    """Returns the number of bytes of the group, without padding of its last word."""
     head = Head(data, (len(turns) + 255) // 256, width)
     head.check_blocks()
     for k, kind in enumerate(head.kinds):
@@ -383,7 +384,7 @@ def decode_group(data, turns, width, out):
 
 
 def double(corners, own):
-    """The corners of a double, of those of the own triangle. `own`: the run's second word."""
+    """The corners of a double, from those of its own triangle. `own`: the run's second word."""
     p, q, r = corners
     return (p, r, q) if own & HIGH else (p, q, r)
 
@@ -403,7 +404,7 @@ def decode_doubles(words, header, out):
 
 
 def decode_packed(words):
-    """Vertices, and all triangles, flat, doubles last. `words`: the whole stream, header included."""
+    """The number of vertices, and a flat list of all triangles, doubles last. `words`: the whole stream."""
     header = Header(words)
     if zlib.crc32(words[4:].tobytes(), zlib.crc32(words[:3].tobytes())) != words[3]:
         raise BadFile("the packed stream's checksum is wrong")
@@ -437,7 +438,7 @@ def decode_packed(words):
 
 
 class Turns:
-    """The turns of a record, packed, and ranks in them."""
+    """The turns of a record as bits, with rank queries (popcounts)."""
 
     def __init__(self, words, first, count):
         self.bits = int.from_bytes(words[4 + first // 32:4 + (first + count + 31) // 32].tobytes(), "little")
@@ -451,12 +452,12 @@ class Turns:
         return (self.bits >> begin & (1 << end - begin) - 1).bit_count()
 
     def is_wart(self, i, warts):
-        """Is triangle i a candidate whose rank is among `warts`?"""
+        """Whether triangle i is a candidate whose rank is in `warts`."""
         return bool(self.candidates >> i & 1) and (self.candidates & (1 << i) - 1).bit_count() in warts
 
 
 class Jump:
-    """The state at triangle `at`, moved on by popcounts. No scopes are kept but whether there is one."""
+    """The state at triangle `at`, advanced by popcounts. Of scopes it only keeps whether one is open."""
 
     def __init__(self, entry, turns):
         self.a, self.b, self.reversed = entry
@@ -466,7 +467,7 @@ class Jump:
         self.finished = self.scope = False
 
     def polygon(self, skipped):
-        """Begins the polygon behind begun, or the one that is `skipped` polygons further."""
+        """Begins the polygon behind the last begun one, or `skipped` polygons later."""
         a, b, was_reversed = self.begun
         corners = b - a + 1
         self.a, self.b = a + corners * (skipped + 1), b + corners * (skipped + 1)
@@ -480,13 +481,13 @@ class Jump:
         self.at = to
 
     def move(self, to):
-        """Moves on to triangle `to`; no event is at `at` or between. There `finished` may be left for later."""
+        """Advances to triangle `to`; no event is at `at` or between. `finished` may remain set there."""
         while self.at < to:
             if self.finished:
                 size = (self.begun[1] - self.begun[0] - 1) & WORD
                 if size == 0:
                     raise BadFile("a polygon has no triangle")
-                whole = (to - self.at - 1) // size  # polygons that triangle to - 1 is behind
+                whole = (to - self.at - 1) // size  # whole polygons before triangle to - 1
                 self.polygon(whole)
                 self.at += whole * size
             left = (self.b - self.a - 1) & WORD
@@ -520,7 +521,7 @@ class Jump:
             self.begin(*ends[place], self.reversed ^ turned)
 
     def third_vertex(self, code, numbers):
-        """x of triangle `at`, the edge to go on across, and the rest and the part's triangles, or None and 0."""
+        """x of triangle `at`, the edge that the walk continues across, and the rest and the part's triangles, or None and 0."""
         turn, a, b = self.turns.turn(self.at), self.a, self.b
         if code == FAR:
             across, x, count = numbers
@@ -534,7 +535,7 @@ class Jump:
 
 
 def find_record(words, header, t):
-    """The record of triangle t, its first triangle, and how many it has. Of a plain block only t's vertices."""
+    """The record of triangle t, its first triangle, and its number of triangles; in a plain block only t's vertices."""
     block = t // 256
     group, k = divmod(block, 16)
     start = header.first_group + (words[header.table + group - 1] if group else 0)
@@ -581,7 +582,7 @@ def read_triangle(words, t):
         if code == FLIPS:
             flip = numbers[0] >> target & 1
         if at < state.at:
-            continue  # in a part that ends before the triangle
+            continue  # the part ends before the triangle
         state.move(at)
         if code not in THIRD_VERTEX:
             state.before(code, numbers)

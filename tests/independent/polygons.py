@@ -1,4 +1,4 @@
-"""Polygons to triangles as docs/formats-read.md has it, with exact numbers and no thought for speed: O(n^3)."""
+"""Cuts polygons into triangles as docs/formats-read.md defines it, with exact numbers, in O(n^3)."""
 
 import math
 from fractions import Fraction
@@ -18,9 +18,9 @@ def turn(a, b, c):
 
 
 def project(points):
-    """The polygon in a plane, counterclockwise; None where it has no area."""
+    """Projects the polygon to a plane, counterclockwise; None if it has no area."""
     largest = max(abs(x) for p in points for x in p)
-    scale = 1 - math.frexp(largest)[1]  # as a power of two: no bits change
+    scale = 1 - math.frexp(largest)[1]  # a power of two: scaling is exact
     points = [[math.ldexp(x, scale) for x in p] for p in points]
     points = [[x if abs(x) >= 2.0 ** -400 else 0.0 for x in p] for p in points]
     normal = [0.0, 0.0, 0.0]
@@ -31,7 +31,7 @@ def project(points):
         normal[0] += a[1] * b[2] - a[2] * b[1]
         normal[1] += a[2] * b[0] - a[0] * b[2]
         normal[2] += a[0] * b[1] - a[1] * b[0]
-    axis = max((2, 1, 0), key=lambda k: abs(normal[k]))  # the first of equal ones
+    axis = max((2, 1, 0), key=lambda k: abs(normal[k]))  # of equal components, z before y before x
     if normal[axis] == 0:
         return None
     u, v = (axis + 1) % 3, (axis + 2) % 3
@@ -47,7 +47,7 @@ class Ring:
         self.left = list(range(n))
         self.changes = [0] * n
         self.blockers = {i for i in range(n) if turn(points[i - 1], points[i], points[(i + 1) % n]) <= 0}
-        self.refused = [set(), set()]  # by rules 1 and 3
+        self.refused = [set(), set()]  # corners refused by rules 1 and 3
 
     def neighbors(self, corner):
         at = self.left.index(corner)
@@ -113,7 +113,7 @@ def fan(corners):
 
 
 def cut(points):
-    """The triangles of a polygon with these corners in space, as numbers of corners."""
+    """The triangles of a polygon with the given corners in space, as corner numbers."""
     plane = project(points)
     whole = fan(range(len(points)))
     if plane is None or all(turn(*(plane[i] for i in triangle)) >= 0 for triangle in whole):

@@ -5,13 +5,13 @@ import zlib
 from mesh_readers import BadFile
 
 MAGIC = 0x3153524C
-BLOCK, GROUP, BACK = 512, 32, 64  # elements of a block, blocks of a group, triangles among which a parent is searched
+BLOCK, GROUP, BACK = 512, 32, 64  # elements per block, blocks per group, preceding triangles searched for a parent
 MOST_STEPS, MOST = 255, 1 << 24
 CONTEXTS = """v0 v1 v2 more many wrap lone left0 left1 left2 right0 right1 right2 right3 right4 half both stepL leave lastR nextR startL
     midL plain seamed seamed2 midR midR2 newR newL newM home""".split()
 LEFT, RIGHT = range(2)
 ENDLESS = 1 << 40
-NEW = None  # asked for instead of a position
+NEW = None  # in questions: a new copy instead of a position
 
 
 def require(condition, message):
@@ -24,7 +24,7 @@ class Private(int):
 
 
 class Bits:
-    """The bits of the words, from a given one to a given one."""
+    """Reads bits [at, end) of the words."""
 
     def __init__(self, number, at, end):
         self.number, self.at, self.end = number, at, end
@@ -48,7 +48,7 @@ class Bits:
 
 
 class Block(Bits):
-    """A block's codes."""
+    """Reads a block's codes."""
 
     def __init__(self, number, at, end, table):
         super().__init__(number, at, end)
@@ -77,7 +77,7 @@ class Block(Bits):
 
 
 class Directory:
-    """Begins, ends and copies before each block."""
+    """A directory: by block, its begin and end, and the copies before it."""
 
     def __init__(self, bits, blocks, widths):
         self.begin, self.before = [0], [0]
@@ -89,7 +89,7 @@ class Directory:
 
 
 class Seams:
-    """A section's parts. read_seams decodes it."""
+    """The parts of a section; read_seams decodes them."""
 
     def __init__(self, data, vertices, triangles):
         require(len(data) % 4 == 0 and len(data) >= 32, "too short")
@@ -117,7 +117,7 @@ class Seams:
 
 
 def read_steps(seams):
-    """Of each vertex: its steps, whether it wraps, its first copy."""
+    """By vertex: its steps, whether it wraps, and its first copy."""
     steps, wraps, firsts = [], [], []
     first = 0
     for b in range(len(seams.vertex_blocks.begin) - 1):
@@ -148,7 +148,7 @@ class Walk:
 
     def __init__(self, codes, triangles, steps, wraps, made):
         self.codes, self.triangles, self.steps, self.wraps, self.made = codes, triangles, steps, wraps, made
-        self.states, self.sides = [], []  # of each triangle: the state of each vertex; its side
+        self.states, self.sides = [], []  # by triangle: the states of its vertices; its side
         for i, triangle in enumerate(triangles):
             if not triangle:
                 self.sides.append(None)
@@ -188,7 +188,7 @@ class Walk:
         return isinstance(a, Private) == isinstance(b, Private) and self.copy(w, a) == self.copy(w, b)
 
     def ask(self, w, questions, current=None):
-        """questions: pairs of a position or NEW and a context, in the order in which they are asked."""
+        """Asks questions, pairs of a position or NEW and a context, in order."""
         left = list(range(self.steps[w] + 1 - self.wraps[w]))
         if current is not None and not isinstance(current, Private):
             left.remove(self.copy(w, current))
@@ -238,7 +238,7 @@ class Walk:
             self.states[i][w] = state
 
     def changes(self, context, usual, _ends):
-        """Which of both ends change their states."""
+        """Reads which of the two ends change their states."""
         if not self.codes.flag(context):
             return 0, 0
         if self.codes.flag(usual):
@@ -274,7 +274,7 @@ class Walk:
 
 
 def read_seams(data, triangles, vertices):
-    """The copy of each corner, a tuple for each triangle, and the vertex of each copy. Empty slots are empty tuples."""
+    """The copies of corners, a tuple per triangle (() for a slot without one), and the vertex of each copy."""
     seams = Seams(data, vertices, len(triangles))
     steps, wraps, firsts = read_steps(seams)
     out, owners, made = [], {}, 0

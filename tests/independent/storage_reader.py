@@ -1,6 +1,6 @@
 """The storage form of packed streams, decoded by its document (docs/storage-format.md) alone.
 
-read_stored_packed gives the triangles; the packed stream itself is not made.
+read_stored_packed returns the triangles, without restoring the packed stream.
 """
 
 from collections import defaultdict
@@ -10,9 +10,9 @@ from packed_reader import double
 from vertex_reader import Bits
 
 WORD = 0xFFFFFFFF
-HIGH = 1 << 31  # of the number of runs: triangles are flipped
+HIGH = 1 << 31  # in the number of runs: triangles are flipped
 SCALE = 1 << 15  # the ranges of a model's symbols fill [0, SCALE)
-LOWEST = 1 << 31  # of a state
+LOWEST = 1 << 31  # the smallest state
 LEFT, RIGHT = range(2)
 MOST_VERTICES, MOST_TRIANGLES = 1 << 29, WORD // 3
 
@@ -34,11 +34,11 @@ class Coded:
         self.rest, self.left = Bits(raw), 8 * len(raw)
 
     def place(self):
-        """Where in [0, SCALE) the next symbol's range is."""
+        """A number in the range of the next symbol, in [0, SCALE)."""
         return self.states[0] % SCALE
 
     def advance(self, begin, end):
-        """Takes a symbol with this range. The other state is next."""
+        """Takes a symbol of the given range, and switches to the other state."""
         state = self.states.pop(0)
         state = (end - begin) * (state // SCALE) + state % SCALE - begin
         if state < LOWEST:
@@ -110,18 +110,18 @@ MODELS = {**dict.fromkeys("ABCDFIJP", BitModel), **dict.fromkeys("EHNO", NumberM
 
 
 class Steps:
-    """Decodes the steps, one after the other. A place of `open` is (a, b, side), or None where the edge is gone."""
+    """Decodes the steps in order. An entry of `open` is an edge (a, b, side), or None after it was closed."""
 
     def __init__(self, coded, vertices, flips):
         self.coded, self.vertices, self.flips = coded, vertices, flips
         self.models = {name: kind() for name, kind in MODELS.items()}
-        self.turn_models = defaultdict(BitModel)  # of K and L
+        self.turn_models = defaultdict(BitModel)  # models of K and L
         self.open = []
-        self.triangles_of = defaultdict(int)  # of each vertex
+        self.triangles_of = defaultdict(int)  # by vertex: its number of triangles
         self.ring_edges = set()  # v, if the edge (v, v + 1) has a triangle
         self.seen = 0
         self.root, self.side = (0, 0), LEFT
-        self.on, self.entered, self.flipped = None, False, 0  # of the step before: the edge it goes on across, and so on
+        self.on, self.entered, self.flipped = None, False, 0  # of the preceding step: the edge to continue across, ...
 
     def read(self, name):
         return self.models[name].read(self.coded)
@@ -144,7 +144,7 @@ class Steps:
         return (a, x, b) if (self.side == RIGHT) ^ self.flipped else (a, b, x)
 
     def edge(self):
-        """The edge of a step that does not go on from the one before it."""
+        """The edge of a step that does not continue from the preceding one."""
         if not self.open or self.read("A" if self.entered else "B"):
             return self.tree()
         at = len(self.open) - 1
@@ -178,7 +178,7 @@ class Steps:
         return self.turn_models[letter, r, s, p, q]
 
     def third_vertex(self, a, b):
-        """x; opens the edges that the step enters."""
+        """Returns x, and opens the edges that the step may continue across."""
         self.on = None
         if self.turn_model("K", a, b).read(self.coded):
             self.entered = False
@@ -200,7 +200,7 @@ class Steps:
         if first and second:
             p = x - a if x > a else WORD
             q = b - x if b > x else WORD
-            if (p <= q) ^ self.read("P"):  # (a, x) comes first
+            if (p <= q) ^ self.read("P"):  # (a, x) is first
                 edges.reverse()
         self.open += [(*edge, self.side) for edge in edges]
         self.entered = bool(edges)
@@ -208,7 +208,7 @@ class Steps:
 
 
 def read_doubles(words, own, triangles):
-    """Appends the doubles to the own triangles. `words`: their number, the runs' number, and two words for each run."""
+    """Appends the doubles to the own triangles. `words`: the numbers of doubles and runs, then two words per run."""
     count, firsts, begins = words[0], words[2::2], words[3::2]
     require(1 <= count <= min(own, MOST_TRIANGLES - own), "there are no doubles, or too many")
     require(firsts[0] == own, "doubles do not follow own triangles")
@@ -219,7 +219,7 @@ def read_doubles(words, own, triangles):
 
 
 def read_stored_packed(words):
-    """Vertices, and the corners of each triangle, doubles last. `words`: the section's, an array of "I"."""
+    """The number of vertices, and the corners of each triangle, doubles last. `words`: the section, an array of "I"."""
     require(len(words) >= 3, "too short")
     vertices, own, runs = words[0], words[1], words[2] & ~HIGH
     require(vertices <= MOST_VERTICES and own <= MOST_TRIANGLES, "too many vertices or triangles")

@@ -1,4 +1,4 @@
-"""What positions lead one to expect of normals and texture coordinates (docs/storage-format.md, By places)."""
+"""Predictions of normals and texture coordinates from positions (docs/storage-format.md, By places)."""
 
 import math
 import struct
@@ -9,7 +9,7 @@ MOST = 1 << 20
 
 
 def places_of(positions, vertex_of):
-    """Of the stream's vertices."""
+    """The positions of the stream's vertices."""
     columns = []
     for column in zip(*positions):
         column = [signed(x) for x in column]
@@ -33,7 +33,7 @@ def cross(a, b):
 
 
 def square(vector):
-    """As double precision has it, of components rounded to floats."""
+    """The squared length in doubles, of components rounded to floats."""
     x, y, z = struct.unpack("<3f", struct.pack("<3f", *vector))
     return x * x + y * y + z * z
 
@@ -47,7 +47,7 @@ class TextureMap:
         return [p + (signed(q - p) + 1 >> 1) for p, q in zip(first, second)]
 
     def extend(self, v, corner, values):
-        """One corner's prediction."""
+        """The prediction of one corner."""
         x, y, z = corner
         at = self.places[x]
         e, f, g = (less(self.places[w], at) for w in (y, v, z))
@@ -70,7 +70,7 @@ def angle(d, e, length):
 
 
 def normal_sums(header, triangles, places, owner):
-    """By the owner of each corner: a copy, or a vertex."""
+    """The sums of normals by owner of each corner: a copy or a vertex."""
     sums = {}
     for triangle in triangles:
         corners = [places[v] for v in triangle]

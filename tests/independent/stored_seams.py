@@ -1,7 +1,7 @@
 """The storage form of seam sections, decoded by its document (docs/storage-format.md, Seams) alone.
 
-read_stored_seams gives the copies; the section itself is not made. What a reader of it would be asked is counted, since
-the table is coded by that: so all of the stored words are read.
+read_stored_seams returns the copies, without restoring the section. It counts the questions that a reader of the section
+would ask, because these counts code the table; so all stored words are read.
 """
 
 import array
@@ -57,7 +57,7 @@ class Bits:
 
 
 class CopyWalk:
-    """self.copy: of each corner, (vertex, number)."""
+    """Sets self.copy: by corner, (vertex, number of the copy)."""
 
     def __init__(self, bits, slots, vertices):
         self.bits = bits
@@ -92,7 +92,7 @@ class CopyWalk:
 
     def read_vertex(self, v):
         self.v, self.count, self.left = v, 0, len(self.corners[v])
-        self.far = []  # of each side, the corner at its other end
+        self.far = []  # by side: the corner at its other end
         for corner in self.corners[v]:
             t, k = divmod(corner, 3)
             self.far += [3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3]
@@ -207,7 +207,7 @@ class Homes:
         return int(self.wraps)
 
     def fan(self, a, end, step):
-        """From the edge to vertex a on, to that to `end`: corners whose next vertex (step 1) is a, or that before (2)."""
+        """The corners from the edge to vertex a to the edge to `end`; a is their next vertex (step 1) or their previous (step 2)."""
         out = []
         while a != end:
             c = next((c for c in self.corners if self.slots[c // 3][(c + step) % 3] == a), None)
@@ -219,12 +219,12 @@ class Homes:
 
 
 class AnswerWalk(Walk):
-    """The questions of a block's reader, answered by the copies that are known: `answers` has both."""
+    """Asks the questions of a block's reader and answers them from known copies. `answers` collects both."""
 
-    at = end = 0  # as a block's codes, all of which were read
+    at = end = 0  # like codes of a block that were all read
 
     def __init__(self, copies, triangles, homes, private):
-        """`copies`: of each corner of the block. `private`: the numbers of the private copies so far, which it appends to."""
+        """`copies`: by corner of the block. `private`: the numbers of private copies so far; new ones are appended."""
         self.copies, self.homes, self.private, self.answers = copies, homes, private, []
         steps, wraps = ({w: what(homes[w]) for triangle in triangles for w in triangle} for what in (Homes.steps, Homes.wrap))
         super().__init__(self, triangles, steps, wraps, len(private))
@@ -270,7 +270,7 @@ class AnswerWalk(Walk):
 
 
 class SideWalk(Walk):
-    """The sides of a block's triangles, and nothing else."""
+    """Finds only the sides of a block's triangles."""
 
     at = end = 0
 
@@ -285,7 +285,7 @@ class SideWalk(Walk):
 
 
 def vertex_answers(homes):
-    """What the reader of a block of vertices would be asked."""
+    """The questions and answers of the reader of a block of vertices."""
     out, before = [], 0
     for h in homes:
         steps = h.steps()
@@ -318,7 +318,7 @@ def read_table(bits, answers):
 
 
 def read_stored_seams(data, slots, vertices):
-    """The copy of each corner, a tuple for each slot, and the vertex of each copy, as read_seams has them."""
+    """The copies of corners, a tuple per slot, and the vertex of each copy, as read_seams returns them."""
     require(len(data) % 4 == 0, "not a whole number of words")
     bits = Bits(data)
     walk = CopyWalk(bits, slots, vertices)

@@ -1,7 +1,7 @@
 """The storage form of vertex streams, decoded by its document (docs/storage-format.md) alone.
 
-read_stored_vertices gives the integers and values of all vertices; the vertex stream itself is not made, so that the
-choices of blocks are not read.
+read_stored_vertices returns the integers and values of all vertices, without restoring the vertex stream; so it does not
+read the choices of blocks.
 """
 
 from collections import defaultdict
@@ -11,7 +11,7 @@ from stored_places import TextureMap, add_normals
 from vertex_order import VertexOrder
 from vertex_reader import DECIMALS, LATTICE, OCTAHEDRAL, WORD, Header, map_values, signed
 
-CHUNK = 1 << 16  # vertices whose blocks are a coded part
+CHUNK = 1 << 16  # vertices per coded part of blocks
 PARALLELOGRAMS, MEAN, NEIGHBOR, NONE = range(4)
 FROM = 0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512
 BITS = 0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 5, 6, 7, 8, 9
@@ -28,7 +28,7 @@ def unfold(code):
 
 
 class StoredHeader(Header):
-    """The header. `ranges` are low and F of each component, or None where they are the usual ones."""
+    """The header. `ranges` are (low, F) by component, or None if they are the usual ones."""
 
     def __init__(self, coded, vertices):
         raw = coded.raw
@@ -39,7 +39,7 @@ class StoredHeader(Header):
         super().__init__(vertices, layout, scale, error, 0)
         usual, self.ranges = raw(1), []
         for _ in range(self.n):
-            raw(5 + 5)  # first width and usual predictor: of the blocks
+            raw(5 + 5)  # first width and usual predictor, which only blocks need
             if not usual:
                 self.ranges.append((raw(32), raw(6)))
         require(all(bits <= 32 for _, bits in self.ranges), "a component has more than 32 bits")
@@ -52,7 +52,7 @@ class StoredHeader(Header):
 
 
 class Residuals:
-    """The models of one of a vertex's residuals."""
+    """The models of one component's residuals."""
 
     def __init__(self):
         self.steps, self.others, self.own = defaultdict(SymbolModel), NumberModel(), 0
@@ -70,7 +70,7 @@ class Residuals:
 
 
 def read_residuals(coded, header):
-    """Unfolded, for each vertex in their order."""
+    """The unfolded residuals of each vertex, in stored order."""
     models, out = [Residuals() for _ in range(header.n)], []
     for _ in range(header.vertices):
         codes, levels = [], []
@@ -113,8 +113,8 @@ def surface_normal(corners, values):
 
 
 class Predictor:
-    """Makes values of residuals, vertex by vertex; VertexOrder calls it. `map` predicts texture coordinates: `values` is
-    then apart from the differences, which are predicted here."""
+    """Computes values from residuals, called by VertexOrder for each vertex. `texture_map` predicts texture coordinates; then
+    `values` are kept apart from the differences that are predicted here."""
 
     def __init__(self, header, residuals, texture_map=None):
         self.header, self.residuals, self.map = header, iter(residuals), texture_map
@@ -125,7 +125,7 @@ class Predictor:
         self.last = None
 
     def put(self, v, difference, prediction):
-        """The prediction is that of texture coordinates."""
+        """`prediction`: that of texture coordinates."""
         self.differences[v] = [x & WORD for x in difference]
         if self.map:
             self.values[v] = [x + y & WORD for x, y in zip(difference, prediction)]
@@ -162,7 +162,7 @@ class Predictor:
 
     @staticmethod
     def by_normal(normal, r):
-        """What is added to the predictions of the three components."""
+        """The summands of the predictions of the three components."""
         sizes = [abs(x) for x in normal]
         k = sizes.index(max(sizes))
         u, w = (k + 1) % 3, (k + 2) % 3
@@ -188,8 +188,8 @@ def check_ranges(header, integers):
 
 
 def read_stored_vertices(words, vertices, triangles, positions=None, vertex_of=None):
-    """The header, with `integers` and `values` as read_vertices has them. `words`: an array of "I"; `triangles` are of
-    the stream's vertices. `positions`: the integers of the file's; `vertex_of`, if the stream is of copies, that of each."""
+    """The header, with `integers` and `values` as in read_vertices. `words`: an array of "I"; `triangles`: of the stream's
+    vertices; `positions`: integers of the file's positions; `vertex_of`: if the stream is of copies, the vertex of each."""
     part, at = take_part(words, 0)
     coded = Coded(part)
     header = StoredHeader(coded, vertices)

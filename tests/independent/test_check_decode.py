@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The checker checked: every format of the same mesh reads alike, and every kind of damage is seen."""
+"""Tests of check_decode.py: it reads every format of a mesh the same, and finds every kind of damage."""
 
 import array
 import os
@@ -100,7 +100,7 @@ class CheckDecode(unittest.TestCase):
     def test_rounding(self):
         words = [b"1.00000005960464477539062500000001", b"1.000000059604644775390625", b"1e-45", b"0.1", b"-0", b"1e-60"]
         values = floats_of_words(words)
-        self.assertEqual(values[0], 1.0000001192092896)  # a double alone would have rounded this to 1
+        self.assertEqual(values[0], 1.0000001192092896)  # rounding through a double would give 1
         self.assertEqual(values[1], 1.0)
         self.assertEqual(values.tobytes()[8:12], b"\1\0\0\0")
         self.assertEqual(values.tobytes()[16:20], b"\0\0\0\x80")
@@ -108,7 +108,7 @@ class CheckDecode(unittest.TestCase):
 
     def test_lean(self):
         C, F, W = 1 << 30, 1 << 29, 1 << 31
-        # A two-sided ring of 0..3 around the tetrahedron-like quad, a one-sided ring of 4..6, one verbatim triangle.
+        # A two-sided ring of vertices 0 to 3, a one-sided ring of 4 to 6, and one verbatim triangle.
         payload = [2, 1, 1, 2, 0, 3, 0 | C, 0, 4, 5, 4 | C, 6, 5, 4]
 
         def stream(payload, rings2=4, rings1=3, triangles=None):
@@ -116,13 +116,13 @@ class CheckDecode(unittest.TestCase):
             head.append(zlib.crc32(array.array("I", payload).tobytes(), zlib.crc32(array.array("I", head).tobytes())))
             return array.array("I", head + payload)
 
-        # 0: (0,2,1); 1, 2, 3: free; 4: (2,0,3); 5: free; 6 closes; 7, 8, 9: free; 10 closes; the verbatim one
+        # Slot 0: (0,2,1); 4: (2,0,3); 6 and 10 close rings; the others have no triangle; then the verbatim triangle.
         _, out = decode_lean(stream(payload, triangles=3))
         self.assertEqual(out, [0, 2, 1, 2, 0, 3, 6, 5, 4])
-        payload[1] = 3 | F  # right of 0: (1, 3, 0), turned
+        payload[1] = 3 | F  # right of 0: (1, 3, 0), flipped
         payload[2] = 0 | W  # wart at 1: (1, 0, 3)
         payload[7] = 1      # right of 3: (0, 1, 3), next through the left word's CLOSE
-        payload[8] = 6 | F  # one-sided: (4, 6, 5) turned
+        payload[8] = 6 | F  # one-sided: (4, 6, 5), flipped
         _, out = decode_lean(stream(payload, triangles=7))
         self.assertEqual(out, [0, 2, 1, 0, 3, 1, 1, 0, 3, 2, 0, 3, 0, 1, 3, 5, 6, 4, 6, 5, 4])
         for damaged in (stream(payload, triangles=6), stream(payload, rings1=2, triangles=7)):

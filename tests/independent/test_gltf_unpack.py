@@ -20,7 +20,7 @@ program = sys.argv.pop(1) if len(sys.argv) > 1 else None
 
 
 def patchwork():
-    """A grid of 150 parts here and there, so that codes of parts used long ago occur; and an animation long enough to be coded."""
+    """A grid of 150 interleaved parts, so that codes of parts used long ago occur, and an animation long enough to be coded."""
     scene, grid, parts = GltfWriter(), Grid(40, 40, wave), 150
     attributes = {"POSITION": scene.positions(grid.positions), "NORMAL": scene.attribute(grid.normals, "VEC3")}
     corners = [[] for _ in range(parts)]
@@ -57,7 +57,7 @@ class GltfUnpack(unittest.TestCase):
         return packed, unpacked
 
     def test_scenes(self):
-        # Most are resident: the storage form takes this reader ten times as long.
+        # Most cases are resident, because this reader takes ten times as long for the storage form.
         cases = ([], ["--resident", "--lossless", "--document", "plain"], ["--keep-order", "--document", "plain"],
                  ["--resident", "--keep-order", "--document", "packed"], ["--resident", "--document", "packed"])
         for kind, scene in (("scene", SceneMaker()), ("patchwork", patchwork())):
@@ -72,7 +72,7 @@ class GltfUnpack(unittest.TestCase):
                     self.assertEqual(compare(*self.packed_and_unpacked(source, f"{kind}-{i}.gltf", *options)), [])
 
     def test_features_occur(self):
-        """The scenes above have every kind of code, and other values are told from these."""
+        """The scenes have every kind of code, and the comparison finds changed values."""
         source = os.path.join(self.folder, "patchwork.glb")
         patchwork().write(source)
         packed, unpacked = self.packed_and_unpacked(source, "p.glb", "--resident", "--document", "plain")
@@ -87,14 +87,14 @@ class GltfUnpack(unittest.TestCase):
         self.assertEqual(kinds, {"new", "lately", "other"})
         heads = [scene.buffers[0][coded.get("byteOffset", 0)] for coded in map(extension_of, scene.json["bufferViews"])
                  if coded and coded["coding"] == "floats"]
-        self.assertIn(4 + 128, heads)  # quaternions
+        self.assertIn(4 + 128, heads)  # coded quaternions
         self.assertIn(3, heads)
         _, exact = self.packed_and_unpacked(source, "q.glb", "--resident", "--lossless")
         self.assertNotEqual(compare(packed, exact), [])
         self.assertEqual(compare(packed, unpacked), [])
 
     def test_part_codes(self):
-        codes = [0, 0, 1, 0, 0, 0, 2, 0, 1, 4]  # parts 0, 0, 1, 0, and the last one used five times more
+        codes = [0, 0, 1, 0, 0, 0, 2, 0, 1, 4]  # parts 0, 0, 1, 0, then the last part five more times
         self.assertEqual(part_codes(zlib.compress(bytes(codes)), 9, 2), [0, 0, 1, 0, 0, 0, 0, 0, 0])
         for bad in (codes[:-1], [*codes, 1, 0], [0, 2, 8], [1, 0], [0, 0, 0, 67, 7], [0, 0, 0, 65, 7], [0, 0, 0, 0, 1, 7]):
             with self.assertRaises(BadFile, msg=bad):

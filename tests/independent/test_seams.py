@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_seams.py WRITE_SEAMS C_SEAMS: seam sections of small meshes, and mutations of them: the reader that was written from
-docs/seams-format.md, and lacedring_seams.h in C, accept those that the library accepts, and have the same copies."""
+"""test_seams.py WRITE_SEAMS C_SEAMS: seams_reader.py and lacedring_seams.h accept the same seam sections of small meshes, valid
+and mutated, as the library, and decode the same copies."""
 
 import array
 import subprocess

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_storage_reader.py LACEDRING: the reader of stored packed streams that was written from docs/storage-format.md gives
-the triangles that `lacedring decode` gives of the same mesh's resident stream; of damaged streams it raises BadFile."""
+"""test_storage_reader.py LACEDRING: storage_reader.py reads the triangles that `lacedring decode` writes for the same mesh's
+resident stream, and raises BadFile for damaged streams."""
 
 import array
 import os
@@ -40,12 +40,12 @@ class TestStorageReader(unittest.TestCase):
             return file.read()
 
     def stored(self, mesh):
-        """The words of the mesh's stored packed stream, or None where it stays resident."""
+        """The words of the mesh's stored packed stream, or None if it has no storage form."""
         kind, contents, *_ = lr_reader.sections(self.encode(mesh, "stored.lr", "--storage"))[0]
         return array.array("I", contents) if kind == lr_reader.STORED_PACKED else None
 
     def check(self, mesh):
-        """Compares vertex by vertex; returns the stored words, if there are any."""
+        """Compares the triangles; returns the stored words, or None."""
         words = self.stored(mesh)
         if words is None:
             return None
@@ -70,11 +70,11 @@ class TestStorageReader(unittest.TestCase):
                 if self.check(self.generate(kind, size)) is not None:
                     stored.append(kind)
         print(f"{len(stored)} stored streams read, of {len(set(stored))} kinds")
-        self.assertGreaterEqual(len(set(stored)), len(KINDS) - 1)  # soup may stay resident
+        self.assertGreaterEqual(len(set(stored)), len(KINDS) - 1)  # soup may have no storage form
         self.assertGreaterEqual(len(stored), len(KINDS) * len(SIZES) * 2 // 3)
 
     def test_doubles(self):
-        """Some triangles of a torus twice, once more as they are or turned round."""
+        """Some triangles of a torus are repeated, as they are or flipped."""
         self.encode(self.generate("torus", 1000), "torus.lr")
         self.run_program("decode", self.path("torus.lr"), "-o", self.path("torus.obj"))
         with open(self.path("torus.obj"), encoding="ascii") as file:
@@ -94,7 +94,7 @@ class TestStorageReader(unittest.TestCase):
             words = self.stored(self.generate(kind, 2000))
             self.assertIsNotNone(words, kind)
             data = words.tobytes()
-            for length in range(0, len(words), 5):  # BadFile alone, for each beginning of the stream
+            for length in range(0, len(words), 5):  # prefixes of the stream may only raise BadFile
                 with self.assertRaises(BadFile):
                     read_stored_packed(words[:length])
             for _ in range(100):

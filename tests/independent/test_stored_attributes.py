@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_stored_attributes.py LACEDRING: files in storage form, read by lr_reader.py, have the triangles, copies and
-attributes that `lacedring decode` finds; of damaged ones the readers raise BadFile and nothing else."""
+"""test_stored_attributes.py LACEDRING: lr_reader.py reads the same triangles, copies and attributes of files in storage form
+as `lacedring decode`, and raises only BadFile for damaged files."""
 
 import array
 import os
@@ -64,11 +64,11 @@ class StoredAttributes(unittest.TestCase):
         if with_seams:
             indices, copies = cut(indices, random.Random(triangles))
             points, normals = ([of[v] for v in copies] for of in (points, normals))
-            normals = [[-x for x in n] if i % 40 == 0 else n for i, n in enumerate(normals)]  # or copies would have none
+            normals = [[-x for x in n] if i % 40 == 0 else n for i, n in enumerate(normals)]  # some flipped, so that copies differ
         columns = attributes_of(points, kind, random.Random(1))
         if triangles % 2:
             columns[1] = ("NORMAL", "f", 0, normals)
-        if with_seams:  # a map of the surface, with a seam at each copy
+        if with_seams:  # texture coordinates with a seam at each copy
             columns[3] = ("TEXCOORD_0", "f", 2, [(x + i % 3, y * 2 - z) for i, (x, y, z) in enumerate(points)])
         self.write_file("m.ply", ply_of_attributes(columns, indices))
 
@@ -88,7 +88,7 @@ class StoredAttributes(unittest.TestCase):
             self.assertEqual(mine, other, mine.name)
 
     def headers(self, data):
-        """Of the stored vertex streams."""
+        """The headers of the stored vertex streams."""
         out, read = [], lr_reader.read_stored_vertices
 
         def keep(*arguments):
@@ -131,7 +131,7 @@ class StoredAttributes(unittest.TestCase):
         self.assertGreater(len(self.headers(self.encode("--positions", "12"))), 0)
 
     def replaced(self, data, number, contents):
-        """The file with other contents of a section."""
+        """The file with the contents of a section replaced."""
         count, = struct.unpack_from("<I", data, 8)
         table, body = b"", b""
         for i in range(count):
@@ -144,7 +144,7 @@ class StoredAttributes(unittest.TestCase):
         return head + struct.pack("<I", zlib.crc32(head)) + table + body
 
     def test_other_ranges(self):
-        """Streams whose ranges are not the usual ones: written by hand, since encoders of today write none."""
+        """Streams with unusual ranges, which the encoder does not write: made by hand."""
         self.mesh("genus", 600, False)
         data, tried = self.encode(*BITS), 0
         for i, (kind, contents, _, length) in enumerate(lr_reader.sections(data)):
@@ -154,7 +154,7 @@ class StoredAttributes(unittest.TestCase):
             words = array.array("I", contents[begin:])
             part = words[1:1 + words[0]]
             layout = part[1 + part[0]] & 0x7FFFFF
-            before = 23 + {LATTICE: 64, DECIMALS: 4, OCTAHEDRAL: 32}.get(layout >> 5 & 7, 0)  # bits before "usual ranges"
+            before = 23 + {LATTICE: 64, DECIMALS: 4, OCTAHEDRAL: 32}.get(layout >> 5 & 7, 0)  # bits before the flag "usual ranges"
             raw = int.from_bytes(part[1 + part[0]:].tobytes(), "little")
             bits, at, rest = raw & (1 << before) - 1, before + 1, raw >> before + 1
             for _ in range(layout & 31):
@@ -162,7 +162,7 @@ class StoredAttributes(unittest.TestCase):
                 rest, at = rest >> 10, at + 48
             bits |= rest << at
             size = 32 * (len(part) - 1 - part[0]) + 38 * (layout & 31)
-            for spare in (0, -32):  # bits at the end that may have become a word too many
+            for spare in (0, -32):  # the last word may have become superfluous
                 more = (size + spare + 31) // 32
                 if bits >> 32 * more == 0:
                     changed = array.array("I", [*part[:1 + part[0]], *array.array("I", bits.to_bytes(4 * more, "little"))])
@@ -178,7 +178,7 @@ class StoredAttributes(unittest.TestCase):
         self.assertGreater(tried, 5)
 
     def test_damaged(self):
-        """BadFile alone, whatever a section says."""
+        """Damaged sections may only raise BadFile."""
         generator, refused, tried = random.Random(9), 0, 0
         self.mesh("blob", 301, True)
         data = self.encode(*BITS)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The readers of the packed stream and the LR tables, by hand-made streams; and what `lacedring encode` writes, whole
-and with one bit changed, vertex streams and seams included.
+"""Tests the readers with hand-made packed streams and LR tables, and with files of `lacedring encode`, unchanged and with one
+bit changed, including vertex streams and seams.
 
-    test_streams.py [LACEDRING]      LACEDRING_MESHES: a folder of meshes that are read, too, corner by corner
+    test_streams.py [LACEDRING]      LACEDRING_MESHES: a folder of further meshes, compared corner by corner
 """
 
 import array
@@ -32,17 +32,17 @@ LACEDRING = None
 FORMATS = ("lean", "packed", "lr", "lr-compact")
 ASSETS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "assets")
 KINDS = ("sphere", "torus", "genus", "terrain", "blob", "parts", "moebius", "soup")
-VERTICES, WIDTH = 1024, 10  # of the packed streams made here
+VERTICES, WIDTH = 1024, 10  # vertices and vertex bits of the packed streams made here
 GAP_BITS, WART_BITS, SPLIT_ORDER, COUNT_ORDER = 3, 1, 2, 1
 
 
 def with_checksum(head, payload):
-    """`head` with its checksum behind it, and `payload`."""
+    """`head`, its checksum and `payload`."""
     checksum = zlib.crc32(array.array("I", payload).tobytes(), zlib.crc32(array.array("I", head).tobytes()))
     return array.array("I", [*head, checksum, *payload])
 
 
-# --- Packed streams made by hand. Fields are strings of bits, the first one first. ---
+# --- Packed streams made by hand. A field is a string of bits, lowest bit first. ---
 
 
 def field(value, width):
@@ -64,7 +64,7 @@ def vertex(v):
 
 
 def in_bytes(bits):
-    """Filled up with ones."""
+    """The bits as bytes, padded with ones."""
     bits += "1" * (-len(bits) % 8)
     return int("0" + bits[::-1], 2).to_bytes(len(bits) // 8, "little")
 
@@ -101,8 +101,8 @@ def entry_field(entry):
 
 def packed(turns, entry, *blocks, step=40, offset_bits=16, entry_bits=0, table=None, kinds=None, doubles=None,
            change_head=str):
-    """Groups of 16 blocks, each a record, or the kind, bytes, entry of its own or None, and entry step. `entry`: of
-    each group. `doubles`: (D, runs, ...), or None."""
+    """A stream of groups of 16 blocks. A block is a record, or (kind, bytes, own entry or None, entry step). `entry`: of each
+    group. `doubles`: (D, runs, ...), or None."""
     data, begins = b"", []
     for first in range(0, len(blocks), 16):
         begins.append(len(data) // 4)
@@ -127,7 +127,7 @@ def packed(turns, entry, *blocks, step=40, offset_bits=16, entry_bits=0, table=N
 
 
 def unpacked(turns, entry, *blocks, **options):
-    """The triangles, each read by itself, too."""
+    """The triangles; checks that each read alone is the same."""
     words = packed(turns, entry, *blocks, **options)
     _, flat = decode_packed(words)
     out = [tuple(flat[i:i + 3]) for i in range(0, len(flat), 3)]
@@ -158,7 +158,7 @@ class Packed(unittest.TestCase):
         with self.assertRaisesRegex(BadFile, "checksum"):
             decode_packed(whole)
 
-    def test_turns(self):  # the document's example, and behind it the polygon 6 ... 11
+    def test_turns(self):  # the example of docs/packed-format.md, then the polygon 6 ... 11
         corridor = [(0, 5, 1), (1, 5, 4), (1, 4, 2), (2, 4, 3)]
         self.assertEqual(unpacked("1010", (0, 5, 0), b""), corridor)
         self.assertEqual(unpacked("1010", (0, 5, 1), b""), [(a, x, b) for a, b, x in corridor])
@@ -189,13 +189,13 @@ class Packed(unittest.TestCase):
         self.assertEqual(unpacked("001110", (0, 7, 0), record(split)),
                          [(0, 7, 4), (4, 7, 6), (4, 6, 5), (0, 4, 1), (1, 4, 2), (2, 4, 3)])
         self.assertEqual(unpacked("11", (0, 7, 0), record(split)), [(0, 7, 3), (0, 3, 1)])
-        # TURN in the part is forgotten at its end, and START there leaves begun alone.
+        # A TURN in a part ends with the part, and a START in it does not change the last begun polygon.
         self.assertEqual(unpacked("11010", (0, 7, 0), record(split, event(0, TURN))),
                          [(0, 7, 3), (0, 1, 3), (1, 2, 3), (3, 7, 4), (4, 7, 6)])
         inside = event(0, START, "111" + vertex(50) + vertex(60) + "1")
         self.assertEqual(unpacked("1101010", (0, 7, 0), record(split, inside, event(3, START, "0"))),
                          [(0, 7, 3), (50, 51, 60), (51, 59, 60), (3, 7, 4), (0, 6, 7), (0, 1, 6), (1, 5, 6)])
-        # Two scopes that end together: the outer one's rest is what counts.
+        # Two scopes end together: the walk continues with the outer scope's rest.
         outer = event(0, JUMP, golomb(4, 1) + "1" + golomb(3, 2))
         inner = event(0, JUMP, golomb(0, 1) + "1" + golomb(2, 2))
         inside = event(0, START, "10" + golomb(20, 2))
@@ -245,7 +245,7 @@ class Packed(unittest.TestCase):
                     (event(1, 7),)):
             with self.assertRaises(BadFile):
                 second(*bad)
-        # A polygon that follows by itself is reversed as it is then, but START asks for begun's, which it leaves alone.
+        # A polygon that follows without an event keeps the current reversal; START takes that of the last begun polygon.
         self.assertEqual(unpacked("0100", (0, 3, 0), record(event(2, TURN), event(1, START, "0"))),
                          [(0, 3, 2), (0, 2, 1), (4, 6, 7), (4, 6, 7)])
 
@@ -287,8 +287,8 @@ class Packed(unittest.TestCase):
         with self.assertRaisesRegex(BadFile, "too many bits"):
             unpacked("1010", (0, 5, 0), b"", offset_bits=17)
         with self.assertRaisesRegex(BadFile, "too many bits"):
-            unpacked("1010", (0, 5, 0), b"", entry_bits=1)  # of one block
-        for bits in range(1, 17):  # the head is filled up with ones, and only to a byte
+            unpacked("1010", (0, 5, 0), b"", entry_bits=1)  # for one block
+        for bits in range(1, 17):  # the head is padded with ones to a byte
             with self.subTest(bits=bits), self.assertRaisesRegex(BadFile, "filled up|words behind|followed by"):
                 unpacked("1010", (0, 5, 0), b"", step=0, offset_bits=bits, change_head=lambda head: head + "0")
 
@@ -324,7 +324,7 @@ class Packed(unittest.TestCase):
             out = unpacked(turns * 2 + "10", first, b"", block, (0, b"", None, 8), entry_bits=4)
             self.assertEqual(out[256], (300, 301, 900))
             self.assertEqual(out[512:], [(428, 429, 772), (429, 771, 772)])
-        # From the last block with an entry of its own, two blocks before: over one that goes on, too, or a plain one.
+        # The last block with an own entry is two blocks before; the block between continues, or is plain.
         no_turns = "0" * 256
         corners = plain(*(5, 6, 7) * 256)
         long = (0, 900, 0)
@@ -400,7 +400,7 @@ class LrTables(unittest.TestCase):
 
 
 def section(data, i=0):
-    """Where the contents of section i of an .lr file begin and end."""
+    """Begin and end of section i of an .lr file."""
     _, _, _, offset, size, _, _ = struct.unpack_from("<HHIQQII", data, 32 + 32 * i)
     return offset, offset + size
 
@@ -412,7 +412,7 @@ def stream_of(data):
 
 
 def sealed(data, i):
-    """An .lr file whose section i has changed, with the file's checksums right again."""
+    """The .lr file with the checksums of section i and the header set."""
     begin, end = section(data, i)
     struct.pack_into("<I", data, 36 + 32 * i, zlib.crc32(data[begin:end]))
     struct.pack_into("<I", data, 24, zlib.crc32(data[32:32 + 32 * struct.unpack_from("<I", data, 8)[0]]))
@@ -421,7 +421,7 @@ def sealed(data, i):
 
 
 def damaged(data, word, bit):
-    """An .lr file with one bit of its first stream changed and every checksum right again."""
+    """The .lr file with one bit of its first stream changed, and all checksums set."""
     data = bytearray(data)
     stream, (begin, end) = stream_of(data), section(data)
     stream[word] ^= 1 << bit
@@ -475,11 +475,11 @@ class Encoded(WithProgram):
                         self.assertEqual(got[2], 0)
                         source = check_decode.read(self.path("m.ply"))
                         self.assertIsNone(check_decode.in_order(source, mesh))
-                        if not weld and kind != "soup":  # no two vertices of which are equal
+                        if not weld and kind != "soup":  # has no equal vertices
                             self.assertEqual([source.positions[v] for v in mesh.vertex_order], mesh.positions)
 
     def same_alone(self, data, count):
-        """Reads each triangle of a packed stream, or `count` of them, by itself."""
+        """Checks that triangles of a packed stream read alone are the same: all, or `count` of them."""
         words = stream_of(data)
         _, flat = decode_packed(words)
         triangles = range(len(flat) // 3)
@@ -490,7 +490,7 @@ class Encoded(WithProgram):
 
     def test_single_triangles(self):
         for kind in KINDS:
-            for triangles in (8, 300, 6000):  # the last in two groups
+            for triangles in (8, 300, 6000):  # 6000 triangles are two groups
                 self.generate(kind, triangles)
                 for options in ((), ("--profile", "cache"), ("--weld=position",)):
                     with self.subTest(kind=kind, triangles=triangles, options=options):
@@ -504,7 +504,7 @@ class Encoded(WithProgram):
         for name in FORMATS:
             data = self.encode(name)
             _, payload, size = damaged(data, 1, 0)
-            different, unseen = 0, []  # a few bits may say the same either way
+            different, unseen = 0, []  # a few bits have no effect
             for _ in range(300):
                 word, bit = generator.randrange(payload, size), generator.randrange(32)
                 try:
@@ -525,7 +525,7 @@ QUANTIZED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "COLOR_1", "WEIGHTS_
 
 
 def attributes_of(points, kind, generator):
-    """Attributes of every type and mapping: (name, type, flags of the PLY comment, the values of each vertex)."""
+    """Attributes of every type and mapping: (name, type, flags of the PLY comment, values by vertex)."""
     def numbers(low, high, count):
         return [[generator.randint(low, high) for _ in range(count)] for _ in points]
 
@@ -546,13 +546,13 @@ def attributes_of(points, kind, generator):
 
 
 def of_type(attribute):
-    """The values' format character, and the bytes of a vertex's."""
+    """The format character of the values, and the bytes per vertex."""
     code = TYPES[attribute.type]
     return code, attribute.components * struct.calcsize("<" + code)
 
 
 def corners_of(attributes, indices):
-    """The multiset of the triangles that name three vertices, by all attributes at their corners. -0 of a position is 0."""
+    """The multiset of triangles that are not degenerate, by all attributes at their corners; -0 of a position equals 0."""
     values = []
     for attribute in attributes:
         (code, size), given = of_type(attribute), attribute.values
@@ -580,7 +580,7 @@ def cut(indices, generator):
 
 class VertexStreams(WithProgram):
     def make(self, kind, triangles, with_seams=False):
-        """Writes a generated mesh with more attributes; returns them. With seams, each copy of a vertex has its own."""
+        """Writes a generated mesh with more attributes and returns these. With seams, copies of a vertex have different values."""
         self.generate(kind, triangles)
         mesh = check_decode.read(self.path("m.ply"))
         if with_seams:
@@ -592,7 +592,7 @@ class VertexStreams(WithProgram):
         return ply_attributes(self.read("m.ply"))
 
     def streams(self, data):
-        """The vertex streams of an .lr file, without their contents, by attribute."""
+        """{attribute: header of its vertex stream} of an .lr file."""
         out = {}
         for kind, contents, _, length in lr_reader.sections(data):
             if kind == lr_reader.VERTEX_STREAM:
@@ -601,14 +601,14 @@ class VertexStreams(WithProgram):
         return out
 
     def check_values(self, attribute, wanted, order, stream):
-        """Compares a decoded attribute, whose entry i is the wanted one's entry order[i]."""
+        """Compares a decoded attribute: its value i must be the wanted value order[i]."""
         given, codes = wanted.values, TYPES[wanted.type]
         size = wanted.components * struct.calcsize(codes)
         given = b"".join(given[size * v:size * v + size] for v in order)
         self.assertEqual((attribute.name, attribute.components, attribute.normalized, attribute.v_up),
                          (wanted.name, wanted.components, wanted.normalized, wanted.v_up))
         if stream is None or stream.mapping not in (LATTICE, OCTAHEDRAL):
-            if attribute.name == "POSITION" and attribute.values != given:  # -0 of a joined vertex may be 0
+            if attribute.name == "POSITION" and attribute.values != given:  # -0 may have become 0
                 pairs = zip(array.array(codes, attribute.values), array.array(codes, given))
                 given = array.array(codes, [x if x == y == 0 and math.copysign(1, x) > 0 else y for x, y in pairs]).tobytes()
             self.assertEqual((attribute.type, attribute.values), (wanted.type, given), wanted.name)
@@ -618,7 +618,7 @@ class VertexStreams(WithProgram):
         self.assertGreaterEqual(error, 0.999999 * stream.largest_error, wanted.name)
 
     def check(self, data, wanted):
-        """Compares the attributes of an .lr file that keeps the order with those given, and with the program's."""
+        """Compares the attributes of an .lr file that keeps the order with the wanted ones and with the program's."""
         mesh, streams = lr_reader.read_lr(data), self.streams(data)
         for attribute, given in zip(mesh.attributes, wanted, strict=True):
             self.check_values(attribute, given, mesh.vertex_order, streams.get(attribute.name))
@@ -636,7 +636,7 @@ class VertexStreams(WithProgram):
     def test_every_kind(self):
         mappings = set()
         for i, kind in enumerate(KINDS):
-            wanted = self.make(kind, 600 if i % 2 else 4500)  # the latter have more than 16 blocks
+            wanted = self.make(kind, 600 if i % 2 else 4500)  # 4500 triangles are more than 16 blocks
             long = {"17 bytes", "9 doubles"}
             names = {attribute.name for attribute in wanted} - long
             for name in FORMATS if kind == "soup" else (FORMATS[i % 2], FORMATS[2 + i // 2 % 2]):
@@ -650,8 +650,8 @@ class VertexStreams(WithProgram):
         self.assertEqual(mappings, set(range(6)))
 
     def same_attribute(self, data, i):
-        """Reads an .lr file here and by the program. Both refuse it, or both find the same in section i, which is
-        returned. The other attributes but POSITION, which is section 1, are taken as read."""
+        """Reads an .lr file here and by the program: both refuse it, or both read the same attribute in section i, which is
+        returned. Of the other attributes only POSITION, section 1, is read."""
         with open(self.path("m.lr"), "wb") as file:
             file.write(data)
         result = subprocess.run([LACEDRING, "decode", self.path("m.lr"), "-o", self.path("out.ply")],
@@ -668,7 +668,7 @@ class VertexStreams(WithProgram):
         return attribute
 
     def change(self, data, i, name, word, bit):
-        """An .lr file with one bit of the vertex stream in section i changed and every checksum right again."""
+        """The .lr file with one bit of the vertex stream in section i changed, and all checksums set."""
         data = bytearray(data)
         begin, end = section(data, i)
         begin += (len(name) + 7) // 8 * 8
@@ -692,7 +692,7 @@ class VertexStreams(WithProgram):
                     continue
                 unchanged = self.same_attribute(data, i)
                 size = (len(contents) - (length + 7) // 8 * 8) // 4
-                for which in range(count):  # the first half in the header and the components
+                for which in range(count):  # half of them in the header and the components
                     word = generator.choice((1, 2, 4, 5, 6, *range(7, 7 + 2 * streams[name].n)))
                     word, bit = word if which < count // 2 else generator.randrange(7, size), generator.randrange(32)
                     with self.subTest(kind=kind, options=options, name=name, word=word, bit=bit):
@@ -701,7 +701,7 @@ class VertexStreams(WithProgram):
             self.assertGreater(different, 0)
 
     def check_corners(self, mesh, wanted, indices, streams):
-        """Has each corner of an .lr file that keeps the order the vertex of its source, with the values of that?"""
+        """Checks that each corner of an .lr file that keeps the order has the vertex of the source, with its values."""
         for attribute, given in zip(mesh.attributes, wanted, strict=True):
             self.check_values(attribute, given, mesh.vertex_order, streams.get(given.name))
         left = set(range(len(indices) // 3))
@@ -714,21 +714,21 @@ class VertexStreams(WithProgram):
             self.assertLess(len(set(indices[3 * t:3 * t + 3])), 3, t)
 
     def source(self, path):
-        """The attributes and indices of a mesh: of tables that hold them as they lie in memory, in the mesh's order."""
+        """The attributes and indices of a mesh, read from LR tables with resident attributes in the mesh's order."""
         mesh = lr_reader.read_lr(self.encode("lr", "--no-weld", "--keep-order", "--effort", "0", mesh=path))
         place = dict(zip(mesh.vertex_order, range(len(mesh.vertex_order))))
         for attribute in mesh.attributes:
             size = of_type(attribute)[1]
             attribute.values = b"".join(attribute.values[size * place[v]:size * place[v] + size] for v in range(len(place)))
         self.assertIsNone(check_decode.in_order(check_decode.read(path), mesh))
-        indices = [0] * (3 * struct.unpack_from("<I", self.read("m.lr"), 16)[0])  # degenerate triangles are not there
+        indices = [0] * (3 * struct.unpack_from("<I", self.read("m.lr"), 16)[0])  # without degenerate triangles
         for i, corner in enumerate(mesh.corner_order):
             for k in range(3):
                 indices[corner // 3 * 3 + (corner + k) % 3] = mesh.vertex_order[mesh.indices[3 * i + k]]
         return mesh.attributes, indices
 
     def check_seams(self, wanted, indices, path, bits=((),), formats=FORMATS):
-        """A mesh with seams, with its order kept and without. Yields the latter .lr file of each format."""
+        """Checks a mesh with seams, with and without its order. Yields the .lr file of each format without the order."""
         every_corner = corners_of(wanted, indices)
         for name in formats:
             for options in bits:
@@ -746,14 +746,14 @@ class VertexStreams(WithProgram):
     def test_seams(self):
         kinds = set()
         for i, kind in enumerate(KINDS):
-            wanted = self.make(kind, 200 + 180 * (i % 3), with_seams=True)  # the last in two blocks
+            wanted = self.make(kind, 200 + 180 * (i % 3), with_seams=True)  # the largest has two blocks
             indices = check_decode.read(self.path("m.ply")).indices
             formats = FORMATS[i // 2 % 2::2]
             for data in self.check_seams(wanted, indices, self.path("m.ply"), (((), BITS)[i % 2],), formats):
                 parts = lr_reader.sections(data)
                 kinds |= {part[0] for part in parts}
                 per_copy = dict(zip((a.name for a in wanted), lr_reader.Attributes(data).read_all(parts)[1]))
-                equal = {"POSITION", "NORMAL", "f64"}  # made of positions alone
+                equal = {"POSITION", "NORMAL", "f64"}  # computed from positions only
                 self.assertEqual({name for name in equal if per_copy[name]}, set())
                 self.assertTrue(per_copy["TEXCOORD_0"] and per_copy["COLOR_0"])
         self.assertEqual(kinds, {1, 2, 5, 6, 7, 8, 9})

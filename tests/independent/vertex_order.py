@@ -4,7 +4,7 @@ from collections import defaultdict, deque
 
 
 def opposite_corners(triangles):
-    """The corner opposite to each one that has one."""
+    """The opposite corner of each corner that has one."""
     whole = [len(set(triangle)) == 3 for triangle in triangles]
     opposite = {}
     for t in range(1, len(triangles)):
@@ -14,7 +14,7 @@ def opposite_corners(triangles):
             other, = (3 * t - 3 + k for k in range(3) if before[k] not in here)
             if other not in opposite:
                 opposite[own], opposite[other] = other, own
-    left = defaultdict(list)  # corners, by the edge that they face
+    left = defaultdict(list)  # by edge: its opposite corners
     for t, triangle in enumerate(triangles):
         for k in range(3):
             if whole[t] and 3 * t + k not in opposite:
@@ -31,11 +31,11 @@ class VertexOrder:
         self.opposite = opposite_corners(triangles)
         self.complete = [len(set(triangle)) < 3 for triangle in triangles]
         self.known = [False] * vertices
-        self.corners = defaultdict(list)  # of each vertex, the one in front last
+        self.corners = defaultdict(list)  # by vertex: a stack of its corners
         self.stack, self.queues = [], (deque(), deque())
 
     def run(self, visitor):
-        """Calls visitor.start(v, the vertex that it comes from or None), or visitor.predicted(v, one or two (x, y, z))."""
+        """Calls visitor.start(v, source vertex or None) or visitor.predicted(v, [(x, y, z), ...]), with one or two predictions."""
         for t, triangle in enumerate(self.triangles):
             if self.complete[t]:
                 continue
@@ -87,7 +87,7 @@ class VertexOrder:
         return self.triangles[corner // 3][corner % 3]
 
     def around(self, corner):
-        """x, y and z of the document."""
+        """x, y and z as in the document."""
         triangle, k = self.triangles[corner // 3], corner % 3
         return triangle[(k + 1) % 3], triangle[(k + 2) % 3], self.vertex(self.opposite[corner])
 

@@ -10,7 +10,7 @@ WORD = 0xFFFFFFFF
 MAGIC = 0x3156524C
 BLOCK, GROUP = 128, 16  # vertices per block, blocks per group
 INTEGERS, LATTICE, OCTAHEDRAL, FLOATS, DECIMALS, DOUBLES = range(6)
-ALLOWED = {INTEGERS: range(6), DOUBLES: (7,)}  # types of a mapping; of the others: 6
+ALLOWED = {INTEGERS: range(6), DOUBLES: (7,)}  # by mapping: allowed types; other mappings: 6
 SCALES = {LATTICE: range(0x00800000, 0x73800000), DECIMALS: range(10)}  # header word 4; for other mappings: 0
 INFINITY = 0x7F800000  # bits of a float
 
@@ -34,7 +34,7 @@ class Bits:
         return int.from_bytes(self.data[place >> 3:(place >> 3) + 5], "little") >> (place & 7) & (1 << bits) - 1
 
     def zeros(self):
-        """Reads zeros, at most 24, and the one that ends them; returns how many zeros."""
+        """Reads at most 24 zeros and the one that ends them; returns the number of zeros."""
         place = self.place
         window = int.from_bytes(self.data[place >> 3:(place >> 3) + 4], "little") >> (place & 7) & 0x1FFFFFF
         require(window, "more than 24 zeros before a one, or the stream ends")
@@ -63,7 +63,7 @@ def float_bits(integer):
 
 
 class Header:
-    """What a stream says of its values: words 1, 2, 4, 5 and 6."""
+    """The description of a stream's values: words 1, 2, 4, 5 and 6."""
 
     def __init__(self, vertices, layout, scale, error, exceptions):
         self.vertices, self.scale = vertices, scale
@@ -77,7 +77,7 @@ class Header:
                 "invalid octahedral layout")
         self.largest = (1 << self.octahedral_bits - 1) - 1 if octahedral else 0  # the document's M
         require(self.mapping != DOUBLES or self.n % 2 == 0, "doubles with an odd number of integers")
-        self.components = {OCTAHEDRAL: self.n + 1, DOUBLES: self.n // 2}.get(self.mapping, self.n)  # of the attribute
+        self.components = {OCTAHEDRAL: self.n + 1, DOUBLES: self.n // 2}.get(self.mapping, self.n)  # components of the attribute
         require(self.scale in SCALES.get(self.mapping, (0,)), "step or digits out of range")
         require(error < (INFINITY if self.mapping in (LATTICE, OCTAHEDRAL) else 1), "invalid largest error")
         require(exceptions == 0 or self.mapping == DECIMALS, "exceptions without decimals")
@@ -85,8 +85,8 @@ class Header:
 
 
 class Vertices(Header):
-    """A stream's parts before the data. read_vertices adds `integers`, for each vertex a tuple of n unsigned 32-bit
-    integers, and `values`, the attribute's bytes. `table` and `data` are the words at which these parts begin.
+    """The parts of a stream before the data. read_vertices adds `integers`, a tuple of n unsigned 32-bit integers per vertex,
+    and `values`, the attribute's bytes. `table` and `data` are the first words of these parts.
     """
 
     def __init__(self, words):
@@ -111,7 +111,7 @@ class Vertices(Header):
 
 
 def read_width(bits, width):
-    """Reads a component's width in a run, given the previous run's; returns it, and whether its residuals have bits."""
+    """Reads a component's width in a run, relative to the previous run's. Returns it, and whether residuals have bits."""
     if not bits.take(1):
         return width, True
     if not bits.take(1):
@@ -127,7 +127,7 @@ def read_width(bits, width):
 
 
 def read_plane(bits, last):
-    """Reads a run's plane (axis, a, b), None if it has none; `last` is the last plane given in the block."""
+    """Reads a run's plane (axis, a, b), or None. `last`: the last plane in the block."""
     if not bits.take(1):
         return None
     if not bits.take(1):
@@ -210,7 +210,7 @@ def octahedral_values(vertex, largest):
     require_range((x, y), -largest, largest)
     require_range(vertex[2:], 0, 1)
     z = largest - abs(x) - abs(y)
-    if z < 0:  # then neither x nor y is 0
+    if z < 0:  # x and y are not 0 then
         x, y = (largest - abs(y)) * (-1 if x < 0 else 1), (largest - abs(x)) * (-1 if y < 0 else 1)
     length = math.sqrt(x * x + y * y + z * z)
     return [x / length, y / length, z / length] + [-1.0 if third else 1.0 for third in vertex[2:]]
@@ -225,8 +225,8 @@ def map_values(header, integers):
         values = [signed(i) for i in flat] if is_signed else flat
         require_range(values, *((-1 << bits - 1, (1 << bits - 1) - 1) if is_signed else (0, (1 << bits) - 1)))
     elif header.mapping == LATTICE:
-        fraction = header.scale & 0x7FFFFF | 0x800000  # ends in as many zeros as the fraction, in 23 if that is 0
-        limit, step = fraction & -fraction, as_float(header.scale)  # so products have at most 24 bits
+        fraction = header.scale & 0x7FFFFF | 0x800000  # has as many trailing zeros as the fraction; 23 if that is 0
+        limit, step = fraction & -fraction, as_float(header.scale)  # products then have at most 24 bits
         values = [signed(i) for i in flat]
         require_range(values, 1 - limit, limit - 1)
         values = [i * step for i in values]

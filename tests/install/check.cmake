@@ -1,4 +1,4 @@
-# Installs the build into a new folder, builds examples/ against it in every way that docs/install.md names, and runs them.
+# Installs the build into a new folder, builds examples/ against it in every way of docs/install.md, and runs them.
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DLACEDRING=... -DNINJA=... -DCXX=... -P check.cmake      SOURCE: the repository
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE error)
@@ -19,7 +19,7 @@ set(no_packages -G Ninja -DCMAKE_MAKE_PROGRAM=${NINJA} -DCMAKE_CXX_COMPILER=${CX
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 
-# What is installed: the headers that are public, and no others.
+# Exactly the public headers are installed.
 file(GLOB headers RELATIVE ${WORK}/prefix/include/lacedring ${WORK}/prefix/include/lacedring/*)
 set(public base.hpp corner_walks.hpp file.hpp lacedring.h lacedring.hpp lacedring_decode.h lacedring_seams.h lacedring_storage.h lacedring_stored_seams.h lacedring_vertices.h lr_file.hpp materials.hpp mesh.hpp mesh_files.hpp operators.hpp primitives.hpp ring.hpp scene.h scene.hpp
            seams.hpp streams.hpp surface.hpp topology.hpp vertices.hpp)
@@ -38,7 +38,7 @@ if(NOT license)
     message(FATAL_ERROR "no LICENSE is installed")
 endif()
 
-# find_package, core and io.
+# find_package with core and io.
 run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${WORK}/examples -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/examples)
 run(${WORK}/examples/encode)
@@ -65,7 +65,7 @@ foreach(bad IN ITEMS ${WORK}/packed.lr ${WORK}/stored.lr ${WORK}/missing.lr ${SO
     endif()
 endforeach()
 
-# find_package, the core alone, where no other package can be found.
+# find_package with the core alone, where no other package can be found.
 run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${WORK}/core -Dlacedring_DIR=${WORK}/prefix/lib/cmake/lacedring -DWITH_FILES=OFF
     -DCMAKE_C_COMPILER=${CC} ${no_packages})
 run(${CMAKE_COMMAND} --build ${WORK}/core)
@@ -74,7 +74,7 @@ expect("${encode_prints}")
 run(${WORK}/core/seams)
 expect("^8 vertices, 24 copies, 12 sharp edges\n$")
 
-# add_subdirectory, where no package can be found.
+# add_subdirectory where no package can be found.
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subdirectory -B ${WORK}/subdirectory -DLACEDRING=${SOURCE}
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${no_packages})
 run(${CMAKE_COMMAND} --build ${WORK}/subdirectory)
@@ -97,7 +97,7 @@ expect("${encode_prints}")
 run(${CC} -std=c99 ${SOURCE}/tests/c/c_interface.c -o ${WORK}/c_by_pkg_config ${flags})
 run(${WORK}/c_by_pkg_config)
 
-# The core installed alone: a package without io.
+# The core installed alone, a package without io.
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/alone -DLACEDRING_IO=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${no_packages})
 run(${CMAKE_COMMAND} --build ${WORK}/alone)
 run(${CMAKE_COMMAND} --install ${WORK}/alone --prefix ${WORK}/alone_prefix)

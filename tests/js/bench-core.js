@@ -1,6 +1,6 @@
-// Decodes bytes to typed arrays by each library: what bench.mjs times, in node and in pages.
+// Decodes bytes to typed arrays by each library, for bench.mjs, in node and in pages.
 
-/** Milliseconds of one call: enough calls in a row to take 5 ms. */
+/** Milliseconds per call, measured over enough calls to take 5 ms. */
 function time(work) {
   let calls = 0;
   const begin = performance.now();
@@ -32,7 +32,7 @@ function decodeDraco(draco, bytes) {
 }
 
 /**
- * Milliseconds of each library for one mesh: the least and the median of `rounds` interleaved rounds.
+ * Minimum and median milliseconds of each library for one mesh, over `rounds` interleaved rounds.
  * mesh: bytes { resident, stored, indices, vertices, draco }, and vertexCount, triangleCount of the meshopt buffers.
  */
 export function bench({lacedring, meshopt, draco}, mesh, rounds) {
@@ -46,7 +46,7 @@ export function bench({lacedring, meshopt, draco}, mesh, rounds) {
     draco: () => decodeDraco(draco, mesh.draco),
   };
   const times = Object.fromEntries(Object.keys(works).map((name) => [name, []]));
-  for (let round = 0; round < rounds + 2; ++round) {  // two to become warm
+  for (let round = 0; round < rounds + 2; ++round) {  // the first two warm up
     for (const [name, work] of Object.entries(works)) {
       const took = time(work);
       if (round >= 2) times[name].push(took);

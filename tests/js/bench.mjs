@@ -1,6 +1,6 @@
-// node bench.mjs PROGRAM PACKAGES BITS ROUNDS MESH...: time from bytes to typed arrays, in node and in headless
-// Chromium, beside meshoptimizer and Draco: positions of BITS and triangles alone. PROGRAM is lacedring, PACKAGES what
-// scripts/node-packages prints.
+// node bench.mjs PROGRAM PACKAGES BITS ROUNDS MESH...: times decoding from bytes to typed arrays in node and headless
+// Chromium, compared with meshoptimizer and Draco. Meshes have positions of BITS bits and triangles only. PROGRAM is
+// lacedring, PACKAGES the output of scripts/node-packages.
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {createRequire} from "node:module";
@@ -35,7 +35,7 @@ function encode(source, name, ...options) {
   return new Uint8Array(readFileSync(out));
 }
 
-/** A PLY file of positions and triangles alone. */
+/** Writes a PLY file of positions and triangles. */
 function writePly(name, positions, indices) {
   const header = `ply\nformat binary_little_endian 1.0\nelement vertex ${
                    positions.length / 3}\nproperty float x\nproperty float y\nproperty float z\n` +
@@ -50,7 +50,9 @@ function writePly(name, positions, indices) {
   return file;
 }
 
-/** meshoptimizer's buffers, as gltfpack makes them: vertices in an order for its codecs, four 16-bit integers each. */
+/**
+ * meshoptimizer's buffers as gltfpack writes them: vertices of four 16-bit integers in an order that suits its codecs.
+ */
 function encodeMeshopt(positions, indices) {
   const ordered = indices.slice(), [remap, count] = MeshoptEncoder.reorderMesh(ordered, true, true);
   let low = [Infinity, Infinity, Infinity], extent = 0;

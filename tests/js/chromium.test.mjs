@@ -1,4 +1,4 @@
-// The package in headless Chromium, with and without a worker: the same arrays as in node.
+// The package decodes the same arrays in headless Chromium, with and without a worker, as in node.
 import assert from "node:assert/strict";
 import {createHash} from "node:crypto";
 import {join} from "node:path";

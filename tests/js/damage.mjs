@@ -1,4 +1,4 @@
-// Damages .lr files, mostly so that their checksums match again: what is inside is looked at then.
+// Damages .lr files, mostly with valid checksums, so that the damage reaches the decoders.
 
 const TABLE = Uint32Array.from({length: 256}, (_, i) => {
   for (let k = 0; k < 8; ++k) i = (i >>> 1) ^ (0xedb88320 & -(i & 1));
@@ -11,7 +11,7 @@ function crc32(bytes, crc = 0) {
   return ~crc >>> 0;
 }
 
-/** Random integers below a bound, from a seed. */
+/** Returns a function that gives random integers below a bound. */
 export function random(seed) {
   let state = seed >>> 0;
   return (bound) => {
@@ -24,8 +24,8 @@ export function random(seed) {
 }
 
 /**
- * Which word of a resident section of a kind is the checksum, and where the words begin that it is of; lean and
- * others: all but that word.
+ * By kind of a resident section: the word of its checksum, and the first word that the checksum covers, without
+ * itself.
  */
 const CHECKSUMS = {
   1: [7, 0],
@@ -56,7 +56,8 @@ export function mend(bytes) {
 }
 
 /**
- * A damaged copy: bits flipped, words replaced or moved, mostly in a section, at times in header, table, or cut off.
+ * A damaged copy: bits flipped, words replaced or moved, mostly in a section, sometimes in the header or table, or
+ * cut.
  */
 export function damage(bytes, next) {
   const cut = next(20) === 0 ? 32 + next(bytes.length - 32) : bytes.length, copy = bytes.slice(0, cut),
@@ -67,7 +68,7 @@ export function damage(bytes, next) {
     const place = next(10);
     if (place === 0)
       size = Math.min(table, cut);
-    else if (table <= cut) {  // a section; often its first words
+    else if (table <= cut) {  // in a section, often in its first words
       const entry = 32 + 32 * next(count);
       from = view.getUint32(entry + 8, true);
       size = view.getUint32(entry + 16, true);

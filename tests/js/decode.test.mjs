@@ -1,4 +1,5 @@
-// Every attribute and index of the npm package beside lacedring decode; what is refused; errors; memory.
+// Compares every attribute and index that the npm package decodes with lacedring decode; tests refusals, errors and
+// memory.
 import assert from "node:assert/strict";
 import {createHash} from "node:crypto";
 import {readFileSync} from "node:fs";
@@ -20,7 +21,7 @@ const {LacedRingError, ready, decodeMesh, decodeMeshAsync, decodeTriangle, valid
 await ready;
 const files = sources();
 
-/** Types that glTF has no place for are written as others: compared as numbers. */
+/** Compares values as numbers, because glTF files have other types for some attributes. */
 function sameValues(ours, theirs, vUp, what) {
   assert.equal(ours.length, theirs.length, what);
   for (let i = 0; i < ours.length; ++i) {
@@ -54,7 +55,7 @@ for (const source of files) {
   }
 }
 
-/** Both orders give back lacedring decode --original-order. */
+/** Checks that vertexOrder and cornerOrder restore the output of lacedring decode --original-order. */
 function checkOrder(file, {vertexCount, indices, vertexOrder, cornerOrder}) {
   assert.deepEqual(vertexOrder.slice().sort(), Uint32Array.from({length: vertexCount}, (_, i) => i));
   lacedring("decode", file, "--original-order", "--force", "-o", `${file}.glb`);
@@ -66,7 +67,8 @@ function checkOrder(file, {vertexCount, indices, vertexOrder, cornerOrder}) {
   });
 }
 
-test("the same bytes on every machine", () => {  // another hash where lacedring encode chooses another order
+// The hash changes if lacedring encode chooses another order.
+test("decoded bytes have the stored hash", () => {
   const hash = createHash("sha256");
   for (const variant of Object.keys(VARIANTS)) {
     const mesh = decodeMesh(encode(join(root, "assets/globe.glb"), variant).bytes);
@@ -76,7 +78,7 @@ test("the same bytes on every machine", () => {  // another hash where lacedring
   assert.equal(hash.digest("hex"), "45e8a43927cd026780ba74fde089e00a3d5d81fb9959b9efc0bc61e42255eb29");
 });
 
-test("without SIMD", async () => {
+test("without SIMD the arrays are the same", async () => {
   const {validate: isValid} = WebAssembly;
   WebAssembly.validate = () => false;
   const scalar = await import(join(root, "build/js/lacedring.js") + "?scalar");
@@ -90,7 +92,7 @@ test("without SIMD", async () => {
   }
 });
 
-test("modules of fewer formats", async () => {
+test("modules of fewer formats decode theirs and refuse others", async () => {
   const vertices = await import(join(root, "build/js/vertices.js")),
         core = await import(join(root, "build/js/core.js"));
   await Promise.all([vertices.ready, core.ready]);
@@ -100,14 +102,14 @@ test("modules of fewer formats", async () => {
   assert.throws(() => core.decodeMesh(resident), {name: "LacedRingError", code: "UNSUPPORTED"});
 });
 
-test("in a worker", async () => {
+test("a worker decodes the same arrays", async () => {
   const {bytes} = encode(files[0], "stored"), expected = decodeMesh(bytes);
   const meshes = await Promise.all([1, 2, 3].map(() => decodeMeshAsync(bytes)));
   for (const mesh of meshes) assert.deepEqual(mesh, expected);
   await assert.rejects(decodeMeshAsync(bytes.subarray(0, 100)), LacedRingError);
 });
 
-test("single triangles", () => {
+test("single triangles equal those of the mesh", () => {
   for (const format of ["lean", "packed"]) {
     for (const source of files.slice(3, 9)) {
       const {bytes} = encode(source, format, ["--format", format, "--resident"]),
@@ -123,7 +125,7 @@ test("single triangles", () => {
   }
 });
 
-test("what is refused", () => {
+test("malformed bytes and wrong arguments are refused", () => {
   const tables = encode(files[3], "lr", ["--format", "lr"]).bytes, {bytes} = encode(files[3], "stored");
   assert.throws(() => decodeMesh(tables), {name: "LacedRingError", code: "UNSUPPORTED", message: /LR tables/});
   assert.throws(() => decodeMesh(new Uint8Array(readFileSync(join(root, "assets/globe.glb")))), {code: "MAGIC"});
@@ -131,7 +133,7 @@ test("what is refused", () => {
   assert.throws(() => decodeMesh(bytes, {limits: {maxMemory: 10000}}), {code: "LIMIT"});
   for (let size = 4; size < bytes.length; size += 97)
     assert.throws(() => decodeMesh(bytes.subarray(0, size)), LacedRingError);
-  const apart = new Uint8Array(bytes.length + 3).subarray(3);  // bytes may begin anywhere
+  const apart = new Uint8Array(bytes.length + 3).subarray(3);  // bytes need no alignment
   apart.set(bytes);
   assert.deepEqual(decodeMesh(apart), decodeMesh(bytes));
 });

@@ -1,6 +1,6 @@
-// node encode.test.mjs PACKAGE LACEDRING: encodeMesh writes, byte for byte, what `lacedring encode` writes of the same
-// arrays, and refuses anything else in one line. PACKAGE is what scripts/build-js writes. Exit code 1: something
-// differs.
+// node encode.test.mjs PACKAGE LACEDRING: encodeMesh writes the same bytes as `lacedring encode` for the same arrays,
+// and refuses invalid ones with an error of one line. PACKAGE is the output folder of scripts/build-js. Exit code 1: a
+// difference.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
@@ -15,7 +15,7 @@ const {LacedRingError, decodeMesh, ready} = await load("lacedring.js");
 const {encodeMesh, ready: encoderReady} = await load("encode.js");
 const folder = mkdtempSync(join(tmpdir(), "lacedring-encode-"));
 
-/** Numbers from 0 to 1, the same in every run. */
+/** Returns a function that gives random numbers from 0 to 1. */
 function randomNumbers(seed) {
   return () => {
     seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0;
@@ -24,8 +24,8 @@ function randomNumbers(seed) {
 }
 
 /**
- * A sphere of n by 2 n quadrilaterals, cut at one meridian and at its poles: it has seams. Some triangles are turned
- * round, doubled or degenerate.
+ * A sphere of n by 2 n quads with seams at a meridian and the poles. Some triangles are flipped, doubled or
+ * degenerate.
  */
 function sphere(n) {
   const positions = [], normals = [], texcoords = [], colors = [], tags = [], indices = [];
@@ -69,7 +69,7 @@ function soup(triangles, vertices, random) {
 const TYPES = [, "SCALAR", "VEC2", "VEC3", "VEC4"],
       COMPONENTS = new Map([[Uint8Array, 5121], [Uint16Array, 5123], [Uint32Array, 5125], [Float32Array, 5126]]);
 
-/** Writes a mesh as a GLB, whose attributes the program reads in alphabetical order. */
+/** Writes a mesh as a GLB. The program reads its attributes in alphabetical order. */
 function writeGlb(path, {indices, positions, attributes = [{name: "POSITION", components: 3, values: positions}]}) {
   const views = [], accessors = [];
   const add = ({values, components, normalized}) => {
@@ -165,10 +165,10 @@ function testErrors() {
       (error) => error instanceof LacedRingError && text.test(error.message) && !error.message.includes("\n"),
       `${text}`);
   }
-  assert.equal(decodeMesh(encodeMesh({positions})).triangleCount, 1);  // without indices, and after all those errors
+  assert.equal(decodeMesh(encodeMesh({positions})).triangleCount, 1);  // works after errors; without indices
 }
 
-/** Any numbers: an error, or a file with the triangles that are not degenerate. */
+/** Encodes random numbers: an error, or a file with all triangles that are not degenerate. */
 function testRandomMeshes() {
   const random = randomNumbers(11), odd = [0, -0, 1e-45, -1e38, 3e38, NaN, Infinity, 1, 1, 1];
   for (let run = 0; run < 150; run++) {
@@ -187,7 +187,7 @@ function testRandomMeshes() {
   }
 }
 
-/** More memory than there can be is an error of JavaScript, not a null pointer. */
+/** Exhausting memory throws a JavaScript error. */
 async function testMemory() {
   const {default: text} = await load("wasm/encode.js");
   const outOfMemory = () => {

@@ -1,4 +1,4 @@
-// The .lr files that the tests decode: what lacedring makes of generated meshes and of the project's assets.
+// Makes the .lr files that the tests decode, from generated meshes and assets/.
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -14,7 +14,7 @@ export function lacedring(...args) {
   execFileSync(program, args, {stdio: ["ignore", "ignore", "pipe"]});
 }
 
-/** A grid with normals, texture coordinates and colors, all of which turn at a seam in its middle. */
+/** Writes a grid with normals, texture coordinates and colors that change at a seam in its middle. */
 function writeGrid(file) {
   const n = 24, lines = [], faces = [];
   for (const half of [0, 1]) {
@@ -51,7 +51,7 @@ export const VARIANTS = {
   "stored, order kept": ["--keep-order", ...BITS],
 };
 
-/** Meshes of every kind, or, by hand, those of the folder LACEDRING_MESHES. */
+/** Generated meshes of every kind and the assets, or those of the folder LACEDRING_MESHES if it is set. */
 export function sources() {
   const folder = process.env.LACEDRING_MESHES;
   if (folder)
@@ -70,7 +70,7 @@ export function sources() {
   return [...files, scene, grid];
 }
 
-/** The bytes of an .lr file, and its name in the folder of this run. */
+/** Encodes a mesh; returns the bytes of the .lr file and its path. */
 export function encode(source, variant, options = VARIANTS[variant]) {
   const file = join(work, `${basename(source)}.${variant.replaceAll(/\W+/g, "-")}.lr`);
   lacedring("encode", source, ...options, "--force", "-o", file);

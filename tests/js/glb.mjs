@@ -1,4 +1,4 @@
-// Reads what the tests need of a plain GLB: the first primitive.
+// Reads the first primitive of a plain GLB.
 import {readFileSync} from "node:fs";
 
 const TYPES = {

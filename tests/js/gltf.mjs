@@ -1,6 +1,6 @@
-// node gltf.mjs PACKAGE LACEDRING SCENE...: packs glTF scenes by every option, and compares what the package makes of
-// them with what `lacedring unpack` does: accessors and images, bit for bit. PACKAGE is what scripts/build-js writes.
-// Exit code 1: something differs.
+// node gltf.mjs PACKAGE LACEDRING SCENE...: packs glTF scenes by every option, and compares accessors and images that
+// the package unpacks with those of `lacedring unpack`, bit for bit. PACKAGE is the output folder of scripts/build-js.
+// Exit code 1: a difference.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
@@ -50,7 +50,7 @@ async function compare(packed) {
   }
 }
 
-/** Part codes of runs [part, triangles], as the extension has them. */
+/** The part codes of runs [part, triangles], as the extension defines them. */
 function encodePartCodes(runs) {
   const bytes = [], recent = [], seen = new Set();
   let expected = 0;
@@ -80,7 +80,7 @@ function encodePartCodes(runs) {
 function testPartCodes() {
   const runs = [];
   for (let i = 0; i < 300; i++) runs.push([(i * 77) % 300, 1 + (i % 200)]);             // parts out of order
-  for (let i = 0; i < 2000; i++) runs.push([(i * i * 31 + 7 * i) % 300, 1 + (i % 3)]);  // near and far ones again
+  for (let i = 0; i < 2000; i++) runs.push([(i * i * 31 + 7 * i) % 300, 1 + (i % 3)]);  // recent and old parts again
   const merged = runs.filter(([part], i) => i === 0 || part !== runs[i - 1][0]);
   const expected = merged.flatMap(([part, triangles]) => new Array(triangles).fill(part));
   assert.deepEqual([...decodePartCodes(encodePartCodes(merged), expected.length, 300)], expected);
@@ -117,10 +117,7 @@ async function testInflate() {
   await assert.rejects(inflate(bomb, 1000), /more than 1000 bytes/);
 }
 
-/**
- * A scene whose animation has floats of every kind: NaN, infinities, denormals, -0; and quaternions, some not of unit
- * length.
- */
+/** A scene whose animation has NaN, infinities, subnormal numbers and -0, and quaternions, some not of unit length. */
 function animatedScene() {
   const frames = 300, times = [], translations = [], rotations = [];
   for (let i = 0; i < frames; i++) {
@@ -159,8 +156,8 @@ function animatedScene() {
 }
 
 /**
- * A scene of many small meshes, which share streams: more parts than the list of those used lately holds. Each has two
- * primitives.
+ * A scene of many small meshes of two primitives that share streams, with more parts than the list of recent parts
+ * holds.
  */
 function crowdScene() {
   const size = 5, accessors = [], views = [], meshes = [];

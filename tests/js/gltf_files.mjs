@@ -1,4 +1,4 @@
-// Reads and writes plain GLB files, for tests; shares no code with the package.
+// Reads and writes plain GLB files; shares no code with the package.
 
 const pad = (size) => Math.ceil(size / 4) * 4;
 const SIZES = {
@@ -19,7 +19,7 @@ const SHAPES = {
   MAT4: 16
 };
 
-/** A GLB of a document without buffers, and of the contents of its buffer views. */
+/** A GLB of a document without buffers and the contents of its buffer views. */
 export function makeGlb(json, views) {
   let size = 0;
   json.bufferViews = views.map(({length}) => {
@@ -56,7 +56,7 @@ export function readScene(bytes) {
   return {json, view};
 }
 
-/** The values of an accessor, tightly packed, without its sparse ones. */
+/** The tightly packed values of an accessor, without its sparse values. */
 export function accessorBytes({json, view}, i) {
   const {bufferView, byteOffset = 0, componentType, type, count} = json.accessors[i];
   const size = SIZES[componentType] * SHAPES[type], out = new Uint8Array(count * size);

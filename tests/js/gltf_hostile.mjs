@@ -1,6 +1,6 @@
-// node gltf_hostile.mjs PACKAGE LACEDRING SCENE... [--runs N] [--seed N]: packs scenes, damages their documents and
-// their bytes at random, and has the package decode them. It may refuse them, in one line, and do nothing else. Exit
-// code 1 otherwise.
+// node gltf_hostile.mjs PACKAGE LACEDRING SCENE... [--runs N] [--seed N]: packs scenes, damages documents and bytes at
+// random, and decodes them with the package, which must decode them or throw an error of one line. Exit code 1
+// otherwise.
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -35,7 +35,7 @@ const VALUES = [
   2 ** 53, 255, 65536, "",   "POSITION", "constructor", "__proto__", null,    true,
   false,   [],  {},    [[]], [[0]],      [{}],          "deflate",   "floats"
 ];
-// Most of a document is nothing to the extension. What it reads:
+// The members of a document that the extension reads.
 const READ = new Set([
   "bufferView", "bufferViews", "buffer",        "buffers", "accessors", "sets",        "part",
   "parts",      "stream",      "streams",       "count",   "coding",    "document",    "indices",
@@ -47,7 +47,7 @@ const OPTIONS = [
   ["--resident", "--fallback"]
 ];
 
-/** All places of a document: [owner, name]. */
+/** All places [owner, name] of a document. */
 function places(value, out = []) {
   for (const name of Object.keys(value)) {
     out.push([value, name]);
@@ -79,9 +79,7 @@ function damageBytes(bytes) {
   return random(8) ? out : out.subarray(0, random(out.length));
 }
 
-/**
- * Changes the contents of a zlib stream that is a buffer view, the inner document or part codes, and mends the view.
- */
+/** Changes the contents of a compressed buffer view, the inner document or part codes, and sets the view's length. */
 function damageInside(scene, view) {
   const place = scene.json.bufferViews[view], at = place.byteOffset ?? 0;
   let contents = inflateSync(scene.binary.subarray(at, at + place.byteLength));

@@ -1,5 +1,5 @@
-// Damaged files: each decodes, or throws LacedRingError; in time, and in memory that is bounded. LACEDRING_MUTATIONS:
-// how many (2000), LACEDRING_SEED: where to begin. The seed of a failure is in its message.
+// Damaged files decode or throw LacedRingError, in bounded time and memory. LACEDRING_MUTATIONS: their number (2000);
+// LACEDRING_SEED: the first seed. A failure's message has its seed.
 import assert from "node:assert/strict";
 import {join} from "node:path";
 import test from "node:test";
@@ -25,7 +25,7 @@ WebAssembly.validate = validate;
 const count = Number(process.env.LACEDRING_MUTATIONS ?? 2000), first = Number(process.env.LACEDRING_SEED ?? 1);
 const MOST = 64 * 2 ** 20;  // bytes that decoding may take
 
-/** What decoding does: a mesh, or the code of an error. */
+/** Decodes; returns a mesh or the code of an error. */
 function outcome(decode, bytes) {
   try {
     return decode(bytes, {limits: {maxMemory: MOST}});
@@ -36,13 +36,13 @@ function outcome(decode, bytes) {
   }
 }
 
-test("damaged files", () => {
+test("damaged files decode, or throw LacedRingError, in bounded time and memory", () => {
   const files = sources()
                   .flatMap(
                     (source) => Object.keys(VARIANTS).map(
                       (variant) => ({name: `${source.split("/").pop()}, ${variant}`, ...encode(source, variant)})))
                   .filter(({bytes}) => bytes.length < 200000);
-  for (const {name, bytes} of files) {  // mend keeps what is sound
+  for (const {name, bytes} of files) {  // mend does not change valid files
     const copy = bytes.slice();
     mend(copy);
     assert.deepEqual(copy, bytes, name);

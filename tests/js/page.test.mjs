@@ -1,6 +1,6 @@
-// node page.test.mjs LACEDRING [--keep FOLDER]: the page in headless Chromium. It draws its sample, and what is chosen:
-// a .lr file, a packed and a plain .glb; it says in one line why a file cannot be shown, and keeps no memory of files
-// before. --keep writes screenshots of it, large and small, light and dark. Exit code 1: something is wrong.
+// node page.test.mjs LACEDRING [--keep FOLDER]: tests the page in headless Chromium. It draws its sample and chosen
+// files (.lr, packed and plain .glb), prints one line if a file cannot be shown, and frees the memory of earlier files.
+// --keep writes screenshots of the page, large and small, light and dark. Exit code 1: a failure.
 import assert from "node:assert/strict";
 import {execFileSync, spawnSync} from "node:child_process";
 import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
@@ -21,7 +21,7 @@ const folder = mkdtempSync(join(tmpdir(), "lacedring-page-"));
 const asset = (name) => join(root, "assets", name), made = (name) => join(folder, name);
 const run = (...args) => execFileSync(program, args, {stdio: "pipe"});
 
-/** Pixels of the canvas that are not its background, after the next frame. */
+/** Counts the pixels of the canvas that are not background, after the next frame. */
 const COVERED = `new Promise((done) => { page.viewer.draw(); requestAnimationFrame(() => {
   const { width, height } = canvas, copy = new OffscreenCanvas(width, height).getContext("2d");
   copy.drawImage(canvas, 0, 0);
@@ -30,7 +30,7 @@ const COVERED = `new Promise((done) => { page.viewer.draw(); requestAnimationFra
 const text = (id) => page.evaluate(`document.getElementById("${id}").textContent`);
 const number = async (id) => Number((await text(id)).replaceAll(",", ""));
 
-/** Chooses a file and waits until it is shown, or its error is. */
+/** Chooses a file and waits until it or its error is shown. */
 async function choose(file) {
   await page.evaluate(`window.shownBefore = page.count`);
   await page.choose(`document.getElementById("file")`, [resolve(file)]);
@@ -38,7 +38,7 @@ async function choose(file) {
     `new Promise((done) => { const look = () => page.count > shownBefore ? done() : setTimeout(look, 20); look(); })`);
 }
 
-/** Chooses a file that is to be shown, and checks the figures. */
+/** Chooses a valid file, and checks that it is shown with the right numbers. */
 async function checkShown(file, {kind, triangles, most}) {
   await choose(file);
   assert.equal(
@@ -58,7 +58,7 @@ async function checkError(name, bytes, expected) {
   const line = await text("error");
   assert.match(line, expected);
   assert(line.startsWith(`${name}: `) && !line.includes("\n") && line.length < 160, line);
-  assert.equal(await text("summary"), before);  // what was shown stays
+  assert.equal(await text("summary"), before);  // the shown file stays
 }
 
 function damaged(file) {
@@ -89,7 +89,7 @@ async function checkRing() {
   await page.evaluate(`document.getElementById("ring").click()`);
 }
 
-/** Memory after many files is that after a few. */
+/** Checks that memory does not grow with the number of files. */
 async function checkMemory() {
   const files = [made("blob.lr"), made("globe.glb"), asset("materials.glb")];
   const load = async (count) => {
@@ -112,7 +112,7 @@ const server = await serve({...FOLDERS, samples: made("samples")}), page = new P
 try {
   await page.open(`http://127.0.0.1:${server.address().port}/`);
   await page.evaluate("page.started");
-  await page.show(640, 700);  // small, and still unless asked: software draws
+  await page.show(640, 700);  // small and without animation, because it is drawn in software
   await page.evaluate(`document.getElementById("turn").checked && document.getElementById("turn").click()`);
   assert.equal(await text("name"), "Blob");
   assert(await page.evaluate(COVERED) > 10000, "the sample is not drawn");

@@ -1,5 +1,5 @@
-// Decodes all that an .lr file holds with shaders/include/*.wgsl in compute shaders, and compares every integer with
-// what the readers in tests/independent decode.
+// Decodes everything in an .lr file with shaders/include/*.wgsl in compute shaders, and compares every integer with the
+// readers of tests/independent.
 import {createBuffer, Kernel, openDevice, readBuffer} from "/gpu/gpu.js";
 import {crc32, readLr} from "/gpu/lr-file.js";
 import {LacedRingError} from "/lacedring/errors.js";
@@ -13,7 +13,7 @@ window.open_ = async () => {
   device.addEventListener("uncapturederror", ({error}) => console.error(error.message));
 };
 
-/** What the compiler says of a shader that is put together from includes and a text. */
+/** Compiles a shader joined from includes and a text; returns the compiler's messages. */
 window.compile = async (names, text) => {
   const includes = await Promise.all(names.map(include));
   const {messages} = await device.createShaderModule({code: includes.join("") + text}).getCompilationInfo();
@@ -21,13 +21,13 @@ window.compile = async (names, text) => {
 };
 
 const kernels = new Map();
-/** The kernel of this name, made once. */
+/** Returns the kernel of a name, created once. */
 async function kernel(name, ...parts) {
   if (!kernels.has(name)) kernels.set(name, await Kernel.create(device, ...parts));
   return kernels.get(name);
 }
 
-/** A buffer of so many words, with what no decoder writes. */
+/** A buffer of `words` words, filled with a value that no decoder writes. */
 function output(words) {
   return createBuffer(device, "output", 4 * words, new Uint32Array(words).fill(GUARD));
 }
@@ -82,7 +82,7 @@ const RUNS = {
   ],
 };
 
-/** Runs one of them over a stream: `each` words for each of so many invocations. */
+/** Runs a kernel over a stream with `invocations` invocations, each of which writes `each` words. */
 async function runOver(name, stream, invocations, each, words = each * invocations) {
   const [file, code] = RUNS[name];
   const compiled = await kernel(name, STREAM, await include(file) + code);
@@ -93,7 +93,7 @@ async function runOver(name, stream, invocations, each, words = each * invocatio
   return out;
 }
 
-/** Collects what differs, of each kind once. */
+/** Collects differences, the first of each kind. */
 class Check {
   problems = [];
   values = 0;
@@ -107,7 +107,10 @@ class Check {
   }
 }
 
-/** Slots as a flat list; a slot without triangle has to come out with two equal vertices, and is taken as it came. */
+/**
+ * The expected slots as a flat list. A slot without a triangle must have two equal vertices in `got`, whose value is
+ * taken.
+ */
 function flat(check, what, slots, got) {
   return slots.flatMap((slot, i) => {
     if (slot.length === 3) return slot;
@@ -133,7 +136,7 @@ async function checkOperators(check, file, {vertex, opposite}) {
     (c, v) => [1, c, v, across(c), across(next(c)), across(previous(c)), turn(c, next), turn(c, previous)];
   check.equal("operators", got, vertex.flatMap((v, c) => (v === null ? Array(8).fill(null) : ofCorner(c, v))));
   const canonical = (c) => got[8 * c + 1];
-  for (let c = 0; c < vertex.length; c++) {  // numbers of first copies lead to the same corner
+  for (let c = 0; c < vertex.length; c++) {  // corners of a T2's first copy map to the second's
     if (c % 4 === 3 || vertex[c] !== null || canonical(c) === NULL) continue;
     if (vertex[canonical(c)] !== got[8 * c + 2])
       check.problems.push(`corner ${c} is of another vertex than its canonical number`);
@@ -179,7 +182,7 @@ const BLOCKS = "fn run(i: u32) { wanted = 0xffffffffu; head = lr_vertex_layout()
 const SINGLE =
   "fn run(i: u32) { wanted = i; head = lr_vertex_layout(); lr_vertex_block(head, i / 128u, i % 128u + 1u); }";
 
-/** All blocks, with the mapping as a pipeline constant; then each vertex alone, with the mapping of the header. */
+/** Checks all blocks, with the mapping as a pipeline constant, then single vertices, with the mapping of the header. */
 async function checkVertices(check, {name, words, integers, count, mapping}, expected) {
   const text = await include("lacedring_vertices");
   for (const alone of [false, true]) {
@@ -243,12 +246,12 @@ const MAGICS = {
   0x5443524c: "lr",
   0x3250524c: "packed"
 };
-/** A stream alone, as readLr would return it. */
+/** A stream in the form that readLr returns. */
 function golden({words, slots, vertices}) {
   return {kind: MAGICS[words[0]], stream: Uint32Array.from(words), slots: slots.length, vertices, attributes: []};
 }
 
-/** Compares a file, or a golden stream, with what is expected of it, FILE.json: { problems, values, slots }. */
+/** Compares a file or golden stream with FILE.json. Returns { problems, values, slots }. */
 window.check = async (url) => {
   const expected = await (await fetch(`${url}.json`)).json(), check = new Check();
   const file = expected.words ? golden(expected) : readLr(new Uint8Array(await (await fetch(url)).arrayBuffer()));
@@ -265,7 +268,7 @@ window.check = async (url) => {
   return {problems: check.problems, values: check.values, slots: file.slots};
 };
 
-/** SplitMix32: numbers below a bound. */
+/** SplitMix32: returns a function that gives random numbers below a bound. */
 function random(seed) {
   return (bound) => {
     seed = seed + 0x9e3779b9 | 0;
@@ -276,8 +279,8 @@ function random(seed) {
 }
 
 /**
- * Decodes a file's streams with bits of theirs flipped, or words at random: whatever comes out, every shader ends and
- * the device stays. Returns the milliseconds of the slowest.
+ * Decodes a file's streams with flipped bits or random words. Every shader must terminate, and the device must not be
+ * lost. Returns the milliseconds of the slowest.
  */
 window.damage = async (url, trials, seed) => {
   const file = readLr(new Uint8Array(await (await fetch(url)).arrayBuffer())), below = random(seed);
@@ -309,7 +312,7 @@ window.damage = async (url, trials, seed) => {
   return slowest;
 };
 
-/** The file with a word of it changed and checksums that are right again. */
+/** The file with one word changed and valid checksums. */
 function changed(bytes, below) {
   const out = bytes.slice(), view = new DataView(out.buffer);
   const at = 4 * below(below(2) ? out.length >> 2 : Math.min(100, out.length >> 2));
@@ -325,8 +328,8 @@ function changed(bytes, below) {
 }
 
 /**
- * Reads changed files: each is refused by an Error of one line, or asks for no more than its bytes can hold. Returns
- * what is wrong.
+ * Reads changed files: each must be refused with an Error of one line, or need no more memory than its bytes justify.
+ * Returns failures.
  */
 window.changeFile = async (url, trials, seed) => {
   const bytes = new Uint8Array(await (await fetch(url)).arrayBuffer()), below = random(seed), wrong = [];

@@ -1,5 +1,4 @@
-// Draws .lr files by every path of web/gpu, and from the index buffer that the CPU decodes, and counts the pixels that
-// differ.
+// Draws .lr files by every path of web/gpu and from the CPU's index buffer, and counts the pixels that differ.
 import {Orbit} from "/gpu/camera.js";
 import {Gl2Mesh, loadGlsl} from "/gpu/gl2.js";
 import {createBuffer, openDevice, readBuffer} from "/gpu/gpu.js";
@@ -9,8 +8,8 @@ import {Renderer} from "/gpu/renderer.js";
 import {loadIncludes} from "/gpu/shaders.js";
 
 const WIDTH = 640, HEIGHT = 480, BACKGROUND = [0, 0, 0, 0];
-const MOST_BLOCKS =
-  100000;  // slots that are drawn with positions out of their blocks: half a block is read for each corner
+// Meshes of more slots are not drawn with positions decoded from blocks, which reads half a block per corner.
+const MOST_BLOCKS = 100000;
 
 let device, includes, renderer, target;
 window.open_ = async () => {
@@ -21,7 +20,7 @@ window.open_ = async () => {
     {size: [WIDTH, HEIGHT], format: "rgba8unorm", usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC});
 };
 
-/** The pixels of the target, a word each. */
+/** The pixels of the target, one word each. */
 async function pixels() {
   const size = 4 * WIDTH * HEIGHT;  // rows are multiples of 256 bytes
   const buffer = device.createBuffer({size, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ});
@@ -34,7 +33,7 @@ async function pixels() {
   return out;
 }
 
-/** Milliseconds of a draw, the least of `times`. */
+/** Milliseconds of a draw, the minimum of `times` draws. */
 async function timed(times, work) {
   let least = Infinity;
   for (let i = 0; i < times; i++) {
@@ -50,8 +49,8 @@ async function timed(times, work) {
 const differing = (a, b) => a.reduce((count, pixel, i) => count + (pixel !== b[i]), 0);
 
 /**
- * Compares the paths: for each view { view, covered: pixels, of each path that differ from the CPU's index buffer: {
- * NAME: pixels } }, bytes, and with `times` > 0 milliseconds. The index buffer, of u32, is URL.indices.
+ * Compares the paths with the CPU's index buffer, URL.indices (u32). Returns for each view the covered pixels and, by
+ * path, the different pixels; the bytes; with `times` > 0 also milliseconds.
  */
 window.pictures = async (url, {views, times = 0}) => {
   const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
@@ -92,10 +91,7 @@ window.pictures = async (url, {views, times = 0}) => {
   return out;
 };
 
-/**
- * The same in WebGL2, flat: { covered, different: pixels between stream and index buffer, floats: words of positions
- * that differ from expected }.
- */
+/** The same in WebGL2 with flat shading: { covered, different: pixels, floats: differing words of positions }. */
 window.picturesGl2 = async (url) => {
   const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
   const gl = new OffscreenCanvas(WIDTH, HEIGHT).getContext("webgl2", {antialias: false});

@@ -1,7 +1,7 @@
-// node webgpu-pictures.mjs LACEDRING [--times N] [MESH...]: draws meshes with web/gpu in headless Chromium, from the
-// stream in the vertex stage, from the expanded index buffer, and from the indices that LACEDRING decodes: 0 pixels may
-// differ. Without MESH those of assets, and the example page itself. --times prints milliseconds, the least of N, and
-// bytes. Exit code 1 if a pixel differs or the console has an error.
+// node webgpu-pictures.mjs LACEDRING [--times N] [MESH...]: draws meshes with web/gpu in headless Chromium from the
+// stream in the vertex stage, from the expanded index buffer, and from the indices that LACEDRING decodes. No pixel may
+// differ. Without MESH it draws assets/ and tests the example page. --times prints bytes and milliseconds, the minimum
+// of N. Exit code 1: a pixel differs or the console has an error.
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -61,7 +61,7 @@ async function compare(page, mesh, format, options, views) {
   }
 }
 
-/** The example page: views by both paths draw something; files that it does not take are refused in one line. */
+/** Tests the example page: both paths draw something in each view, and unsupported files are refused in one line. */
 async function checkPage(page, host) {
   run("encode", join(work, "blob.ply"), "-o", join(work, "stored.lr"));
   writeFileSync(join(work, "garbage.lr"), Buffer.alloc(100, "garbage"));
@@ -74,7 +74,7 @@ async function checkPage(page, host) {
     const told = await shown(error);
     if (!told.includes(expected) || told.includes("\n")) fail(`the page says of ${name}: ${told}`);
   }
-  page.problems = page.problems.filter((problem) => !problem.includes("404"));  // of missing.lr
+  page.problems = page.problems.filter((problem) => !problem.includes("404"));  // the request of missing.lr
   await page.open(`${host}/gpu/?file=/data/blob.ply-packed.lr`);
   for (const [path, view] of [["pull", "smooth"], ["pull", "ring"], ["expand", "flat"], ["expand", "classes"]]) {
     await page.evaluate(

@@ -1,6 +1,6 @@
-// node webgpu.mjs LACEDRING: shaders/include/*.wgsl in headless Chromium's WebGPU. Every triangle, attribute value,
-// copy and operator of files that LACEDRING writes, and of the golden streams, is, integer for integer, that of the
-// readers in tests/independent, and damaged streams neither hang nor lose the device. Exit code 1 otherwise.
+// node webgpu.mjs LACEDRING: tests shaders/include/*.wgsl in headless Chromium. Every triangle, attribute value, copy
+// and operator of files of LACEDRING and of the golden streams must equal that of the readers in tests/independent;
+// damaged streams must neither hang nor lose the device. Exit code 1 otherwise.
 import {execFileSync} from "node:child_process";
 import {copyFileSync, mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -16,7 +16,7 @@ const program = resolve(process.argv[2]), work = mkdtempSync(join(tmpdir(), "lac
 const run = (...args) => execFileSync(program, args, {stdio: "pipe"});
 
 const QUANTIZED = ["--positions", "12", "--normals", "8", "--texcoords", "10"];
-// Meshes, and what is told encode of each.
+// Meshes, and the options of encode.
 const FORMATS = [
   ["lean"], ["packed"], ["packed", "--profile", "cache", ...QUANTIZED], ["lean", "--no-weld", ...QUANTIZED],
   ["lr", "--positions", "14"]
@@ -51,7 +51,7 @@ function constants(name, pattern) {
   return new Map([...text.matchAll(pattern)].map(([, key, value]) => [key, value.replace(/[ui]$/, "")]));
 }
 
-/** Names whose values in WGSL are others than in GLSL. */
+/** Names of constants that differ between WGSL and GLSL. */
 function differentConstants() {
   return ["lacedring", "lacedring_vertices", "lacedring_seams", "lacedring_operators"].flatMap((name) => {
     const glsl = constants(`${name}.glsl`, /^#define (LR_\w+) (0x[0-9a-f]+u?|\d+u?)\b/gm);
@@ -61,7 +61,7 @@ function differentConstants() {
   });
 }
 
-/** The shaders that docs/webgpu.md shows, each behind the names of its includes. */
+/** The shaders in docs/webgpu.md, each with the names of its includes. */
 function shownShaders() {
   const text = readFileSync(join(here, "../../docs/webgpu.md"), "utf8");
   return [...text.matchAll(/```wgsl ([\w ]+)\n(.*?)```/gs)].map(([, names, code]) => [names.split(" "), code]);

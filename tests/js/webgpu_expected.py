@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""webgpu_expected.py FILE...: what the readers written from the documents (tests/independent) decode from resident .lr files, to FILE.json:
-every slot's triangle, the copies of its corners, the integers and floats of vertex streams, the opposites of LR tables. A FILE.hex is a golden
-stream (tests/golden): its words and slots."""
+"""webgpu_expected.py FILE...: decodes resident .lr files by the readers of tests/independent and writes FILE.json: each slot's triangle, the
+copies of its corners, the integers and floats of vertex streams, the opposites of LR tables. FILE.hex is a golden stream (tests/golden), of
+which it writes words and slots."""
 
 import array
 import json
@@ -14,7 +14,7 @@ from lr_reader import DECODERS, SEAMS, VERTEX_STREAM, copies_of, sections  # noq
 from lr_tables_reader import Tables  # noqa: E402
 from vertex_reader import DECIMALS, FLOATS, LATTICE, OCTAHEDRAL, read_vertices, signed  # noqa: E402
 
-MAGICS = {0x4E4C524C: 1, 0x5443524C: 5, 0x3250524C: 7}  # of streams, to the kinds of .lr files
+MAGICS = {0x4E4C524C: 1, 0x5443524C: 5, 0x3250524C: 7}  # from magic numbers to section kinds of .lr files
 
 
 def direction(vertex, largest):
@@ -36,7 +36,7 @@ def attribute(contents, name_length):
 
 
 def operators(tables):
-    """Of each corner that there is its vertex and opposite; of the other numbers null."""
+    """The vertex and opposite of each corner; null for numbers that are no corner."""
     corners = Corners(tables)
     vertex, opposite = ([None] * (4 * (2 * tables.ring + tables.t0)) for _ in range(2))
     for t, triangle, _ in tables.triangles():
@@ -64,7 +64,7 @@ def lr_file(data):
 
 
 def golden(text):
-    _, count, *numbers = text.split()  # "words", how many; other things lie behind them
+    _, count, *numbers = text.split()  # "words", their number, the words, and further sections
     words = array.array("I", (int(word, 16) for word in numbers[:int(count)]))
     out = {"words": words.tolist(), "attributes": []}
     connectivity(words, MAGICS[words[0]], out)

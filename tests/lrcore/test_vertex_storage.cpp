@@ -31,8 +31,8 @@ Bytes storage_bytes(const std::vector<T>& values) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// Returns the stored form of a stream, and checks that it restores the stream, within its limit of words, and decodes
-/// in C. Buffers have exactly their size.
+/// Stores a stream and returns the words. Checks that they restore the stream, but not with a limit of fewer words, and
+/// that C decodes them. Buffers have exactly their size.
 Words stored(const Words& stream, std::span<const std::uint32_t> triangles) {
     const Result<VertexView> view = validate_vertices(stream);
     REQUIRE_MESSAGE(view, view.error().message);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""compare_scenes.py SOURCE UNPACKED [--lossless | --errors JSON] [--keep-order]: whether packing lost nothing of a glTF scene.
+"""compare_scenes.py SOURCE UNPACKED [--lossless | --errors JSON] [--keep-order]: checks that packing lost nothing of a glTF scene.
 
-The JSON must be equal, texts of numbers included, but for what describes buffers (see json_differences). Triangles are compared
-as a multiset, oriented, with all attributes and morph targets at their corners: bit for bit, or within the errors
-{"POSITION": x, "POSITION of morph targets": y, ...} a component (0 where there is none; an accessor of several names has the
-largest of theirs), as are lines and points that share accessors with triangles. Everything else must be equal bit for bit. Exit code 1 if it is not.
+The JSON must be equal, including the text of numbers, except the description of buffers (json_differences). Triangles are compared
+as a multiset of oriented triangles with all attributes and morph targets at their corners: bit for bit, or within errors per
+component, {"POSITION": x, "POSITION of morph targets": y, ...} (default 0; an accessor of several names has the largest error).
+Lines and points that share accessors with triangles are compared likewise, everything else bit for bit. Exit code 1: a difference.
 """
 
 import argparse
@@ -17,14 +17,14 @@ from scene_reader import Scene, columns, is_triangles
 
 
 def reshaped(scene):
-    """Accessors of triangle primitives, which may have another count and other bounds, and indices of what shares them."""
+    """The accessors whose count and bounds may change: those of triangle primitives, and indices of primitives that share them."""
     vertices = {a for _, _, primitive in scene.primitives() if is_triangles(primitive) for a in columns(primitive).values()}
     return vertices | {primitive["indices"] for _, _, primitive in scene.primitives()
                        if "indices" in primitive and vertices & set(columns(primitive).values())}
 
 
 def json_differences(source, unpacked):
-    """Compares both documents without what describes buffers, once the primitives of `unpacked` look like the source's."""
+    """Compares both documents without the description of buffers, with the modes of `unpacked` adapted to the source."""
     a, b = source.exact, unpacked.exact
     known = len(a.get("accessors", []))
     free = reshaped(source)
@@ -33,7 +33,7 @@ def json_differences(source, unpacked):
         try:
             theirs = unpacked.json["meshes"][m]["primitives"][p]
         except (LookupError, TypeError):
-            continue  # found below
+            continue  # reported below
         if is_triangles(primitive) and "indices" not in primitive and "indices" in theirs:
             new[(m, p)] = theirs["indices"]
     added = range(known, len(unpacked.json.get("accessors", [])))
@@ -41,7 +41,7 @@ def json_differences(source, unpacked):
         yield f"accessors {list(added)} are new, of which primitives without indices have {sorted(set(new.values()))}"
 
     def without(value, path):
-        """The value as lists and dictionaries with nothing of it that may differ."""
+        """The value without the parts that may differ."""
         if isinstance(value, list):
             return [without(v, (*path, i)) for i, v in enumerate(value[:known] if path == ("accessors",) else value)]
         if not isinstance(value, dict):
@@ -95,12 +95,12 @@ def triangles(scene, primitive, rows):
 
 
 def first_corner(t):
-    """The triangle begun at its least corner."""
+    """The triangle rotated to begin with its smallest corner."""
     return min(t, t[1:] + t[:1], t[2:] + t[:2])
 
 
 def lossless_differences(ours, theirs, keep_order):
-    # Merging equal vertices makes a triangle degenerate that has two of them.
+    # Merging equal vertices makes triangles with two of them degenerate.
     ours, theirs = ([first_corner(t) for t in ts if len(set(t)) == 3] for ts in (ours, theirs))
     if keep_order and ours != theirs:
         yield "triangles differ or have another order"
@@ -111,7 +111,7 @@ def lossless_differences(ours, theirs, keep_order):
 
 
 class Tolerance:
-    """What a component of a row may differ by."""
+    """The largest allowed difference of each component of a row."""
 
     def __init__(self, scene, primitive, errors):
         accessors = columns(primitive)
@@ -129,7 +129,7 @@ class Tolerance:
                 self.position = len(self.limits)
             for component in zip(*values):
                 largest = max(map(abs, component))
-                self.limits.append(error * 1.0001 + (1e-6 * largest if error else 0.0))  # the error is rounded, and so are values
+                self.limits.append(error * 1.0001 + (1e-6 * largest if error else 0.0))  # the reported error and the values are rounded
 
     def close(self, a, b, times=1):
         return all(abs(x - y) <= times * limit for x, y, limit in zip(a, b, self.limits))
@@ -138,11 +138,11 @@ class Tolerance:
         return any(all(map(self.close, s, t[turn:] + t[:turn])) for turn in range(3))
 
     def collapsed(self, t):
-        """Whether two corners may have become one."""
+        """Whether two corners are so close that they may have become one."""
         return any(self.close(t[i], t[i - 1], 2) for i in range(3))
 
     def cells(self, t, cell, spread):
-        """Cells of the grid in which the centroid may lie."""
+        """The cells of the grid that may contain the centroid."""
         at = self.position
         centroid = [sum(corner[at + i] for corner in t) / 3 for i in range(3)]
         ranges = [{int((x - spread) // cell), int((x + spread) // cell)} for x in centroid]
@@ -191,7 +191,7 @@ def match(edges):
                         free = right
                         break
                     stack.append(left_of[right])
-        while free is not None:  # turns the path to the free node around
+        while free is not None:  # flips the augmenting path
             node = came_from[free]
             left_of[free] = node
             right_of[node], free = free, right_of.get(node)
@@ -203,7 +203,7 @@ def geometry_differences(source, unpacked, errors=None, keep_order=False):
     for (m, p, ours), (_, _, theirs) in zip(source.primitives(), unpacked.primitives()):
         where = f"/meshes/{m}/primitives/{p}"
         if sorted(columns(ours)) != sorted(columns(theirs)):
-            continue  # the JSON differs
+            continue  # reported by json_differences
         rows = [vertices(scene, primitive, exact) for scene, primitive in ((source, ours), (unpacked, theirs))]
         tolerance = None if exact else Tolerance(source, ours, errors)
         if not is_triangles(ours):
@@ -231,7 +231,7 @@ def other_differences(source, unpacked):
 
 
 def compare(source, unpacked, errors=None, keep_order=False):
-    """Every difference, as text. errors: {attribute: largest error of a component}; None: lossless."""
+    """All differences, as text. errors: {attribute: largest error of a component}; None: lossless."""
     found = list(json_differences(source, unpacked))
     if any(len(source.json.get(name, [])) > len(unpacked.json.get(name, [])) for name in ("accessors", "meshes")):
         return found

@@ -12,7 +12,7 @@ ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 
 def number(text):
-    """A number that is written as this text, for instance 1e-3."""
+    """A number with a given text, for instance 1e-3."""
     return f"@@{text}@@"
 
 
@@ -34,7 +34,7 @@ def bounds(values):
 
 
 class GltfWriter:
-    """Buffer 0 becomes the GLB's binary chunk, or a .bin file beside the .gltf; buffer 1 is always a data URI."""
+    """Buffer 0 is written as the GLB's binary chunk or a .bin file beside the .gltf, buffer 1 as a data URI."""
 
     def __init__(self):
         self.buffers = [bytearray(), bytearray()]
@@ -54,7 +54,7 @@ class GltfWriter:
         return len(self.json["bufferViews"]) - 1
 
     def describe(self, values, kind, component, normalized=False, limits=False, **more):
-        """Appends an accessor of these values, which lie where `more` says; returns its index and its values as stored."""
+        """Appends an accessor of values at the buffer view in `more`; returns its index and the stored values."""
         item = struct.Struct(f"<{WIDTH[kind]}{component}")
         stored = [item.unpack(item.pack(*value)) for value in values]
         accessor = {"componentType": COMPONENT[component], "count": len(values), "type": kind, **more}
@@ -100,7 +100,7 @@ class GltfWriter:
                 for name, (values, kind, component, normalized) in columns.items()}
 
     def sparse(self, values, changes, kind="VEC3", base=True):
-        """An accessor of f32 values of which {element: value} are changed; without base all others are zero."""
+        """A sparse accessor of f32 values with the changes {element: value}; without base, the others are zero."""
         width = WIDTH[kind]
         order = sorted(changes)
         more = {"sparse": {"count": len(order),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""make_scene.py OUT.gltf|OUT.glb...: writes one scene that has every glTF feature that packing could lose.
+"""make_scene.py OUT.gltf|OUT.glb...: writes a scene with every glTF feature that packing could lose.
 
-The bytes depend on nothing but this file. tests/scene/compare_scenes.py compares what comes back with it.
+The bytes are always the same. tests/scene/compare_scenes.py compares the unpacked scene with it.
 """
 
 import math
@@ -131,7 +131,7 @@ class SceneMaker(GltfWriter):
                               "indices": self.indices(grid.triangles, limits=True), "material": 0, "mode": TRIANGLES}])
 
     def mesh_shared(self):
-        """Primitives that share some or all of their accessors, triangles with lines among them."""
+        """Primitives that share some or all of their accessors, also triangles with lines."""
         grid = Grid(12, 12, wave)
         half = len(grid.triangles) // 6 * 3
         shared = {"POSITION": self.positions(grid.positions), "NORMAL": self.attribute(grid.normals, "VEC3"),
@@ -152,14 +152,14 @@ class SceneMaker(GltfWriter):
                                 "mode": LINES, "material": 2}])
 
     def mesh_modes(self):
-        """Every way to name triangles, and what is no triangle."""
+        """All primitive modes: triangle lists, strips and fans, points and lines."""
         soup = Grid(6, 4, lambda u, v: (u, v, 0.2 * u * v))
         corners = [soup.positions[v] for v in soup.triangles]
         colors = [(40 * v % 256, 255 - 30 * v % 256, 128, 255) for v in soup.triangles]
         columns, rows = 8, 3
         ribbon = Grid(columns, rows, lambda u, v: (u, v - 1.1, 0.1 * math.sin(6 * u)))
         strip = []
-        for row in range(rows):  # strips of rows, joined by degenerate triangles
+        for row in range(rows):  # the strips of rows are joined by degenerate triangles
             one = [v for c in range(columns + 1) for v in ((row + 1) * (columns + 1) + c, row * (columns + 1) + c)]
             strip += ([strip[-1], one[0]] if strip else []) + one
         fan = [(-0.5, 0.5, 0)] + [(-0.5 + 0.4 * math.cos(a / 2), 0.5 + 0.4 * math.sin(a / 2), 0.1 * a) for a in range(11)]
@@ -186,7 +186,7 @@ class SceneMaker(GltfWriter):
             {"attributes": {"POSITION": self.sparse(grid.positions, changed), "NORMAL": self.attribute(grid.normals, "VEC3")},
              "targets": [{"POSITION": self.sparse(grid.positions, moved, base=False), "NORMAL": self.attribute(turned, "VEC3")},
                          {"POSITION": self.attribute([(0, 0.3 * n[2], 0) for n in grid.normals], "VEC3", limits=True, buffer=1),
-                          "NORMAL": self.describe([(0, 0, 0)] * count, "VEC3", "f")}],  # without bytes: zeros
+                          "NORMAL": self.describe([(0, 0, 0)] * count, "VEC3", "f")}],  # no buffer view: zeros
              "indices": self.indices(grid.triangles), "material": 1}], weights=[number("0.50"), 0.25])
         self.meshes[-1]["extras"]["targetNames"] = ["up", "along"]
 

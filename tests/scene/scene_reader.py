@@ -70,11 +70,11 @@ class Scene:
         return data
 
     def elements(self, view, offset, count, kind, shape):
-        """`count` tuples, column after column, 32-bit floats as their bits."""
+        """`count` tuples, column by column; 32-bit floats are given as their bits."""
         rows, columns = SHAPE[shape]
         component = FORMAT[kind]
         size = SIZE[component]
-        column = rows * size + (-rows * size % 4 if columns > 1 else 0)  # columns of matrices begin at multiples of four
+        column = rows * size + (-rows * size % 4 if columns > 1 else 0)  # columns of matrices are aligned to four bytes
         code = "I" if component == "f" else component
         item = struct.Struct("<" + f"{rows}{code}{column - rows * size}x" * columns)
         data = self.view(view)
@@ -117,7 +117,7 @@ class Scene:
                 for p, primitive in enumerate(mesh["primitives"])]
 
     def corners(self, primitive):
-        """The vertices that a primitive names, in order; strips and fans as triangles."""
+        """The vertices of a primitive's corners, in order; strips and fans as triangle lists."""
         count = self.json["accessors"][min(primitive["attributes"].values())]["count"]
         order = [v for (v,) in self.accessor(primitive["indices"])] if "indices" in primitive else list(range(count))
         assert all(v < count for v in order), "an index names no vertex"
@@ -130,7 +130,7 @@ class Scene:
 
 
 def columns(primitive):
-    """{name: accessor} of a primitive's attributes and morph targets, those of target 0 as 0/POSITION."""
+    """{name: accessor} of a primitive's attributes and morph targets, which are named 0/POSITION, ..."""
     out = dict(primitive["attributes"])
     for t, target in enumerate(primitive.get("targets", [])):
         out.update({f"{t}/{name}": accessor for name, accessor in target.items()})

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""compare_scenes.py accepts a scene whose vertices and triangles have another order, and finds every single change."""
+"""compare_scenes.py accepts a scene with vertices and triangles in another order, and finds every single change."""
 
 import json
 import os
@@ -24,20 +24,20 @@ def spelled(value):
 
 
 class Copy:
-    """A scene to change: its JSON, and the elements of every accessor. write() gives each accessor a buffer view of its own."""
+    """A scene that can be changed: its JSON, and the elements of every accessor. write() gives each accessor its own buffer view."""
 
     def __init__(self, scene, shuffle=None):
         self.json = spelled(scene.exact)
         self.values = [list(scene.accessor(i)) for i in range(len(self.json["accessors"]))]
         self.images = [scene.view(image["bufferView"]) if "bufferView" in image else None for image in scene.json["images"]]
-        self.used = {}  # a vertex of each accessor that a triangle has
+        self.used = {}  # by accessor: a vertex that a triangle uses
         if shuffle:
             self.shuffle(scene, shuffle)
 
     def shuffle(self, scene, rng):
-        """Other orders of vertices and triangles, triangle lists for strips and fans, indices for all."""
+        """Shuffles vertices and triangles, makes triangle lists of strips and fans, and adds indices."""
         vertices = {a for _, _, p in scene.primitives() if is_triangles(p) for a in columns(p).values()}
-        orders = {}  # by the number of vertices, so that accessors that are used together are renumbered together
+        orders = {}  # by number of vertices: accessors used together get the same order
         for a in vertices:
             order = orders.setdefault(len(self.values[a]), rng.sample(range(len(self.values[a])), len(self.values[a])))
             self.values[a] = [self.values[a][old] for old in order]
@@ -87,7 +87,7 @@ class Copy:
 
 
 def add(values, element, component=0, bits=1):
-    """Changes the last bit of one component of one element."""
+    """Changes low bits of one component of one element."""
     row = list(values[element])
     row[component] ^= bits
     values[element] = tuple(row)

@@ -1,36 +1,36 @@
 #!/usr/bin/env python3
-"""test_layers.py ROOT: who may include whom. The README's table of folders is the order: a file includes those of its folder
-and of folders before it. lrcore includes the language's own headers alone, and its decoders nothing of rings and corner tables."""
+"""test_layers.py ROOT: checks includes. A file may include files of its own folder and of folders before it in the README's table.
+lrcore may include standard headers only, and its decoders nothing of rings and corner tables."""
 
 import pathlib
 import re
 import sys
 
-LAYERS = ["lrcore", "lrio", "lrlab", "shaders", "renderer", "app"]  # whose files are looked at
+LAYERS = ["lrcore", "lrio", "lrlab", "shaders", "renderer", "app"]  # folders whose files are checked
 SOURCES = {".cpp", ".h", ".hpp", ".glsl", ".comp", ".vert", ".frag", ".geom", ".mesh"}
 CORE = ["base", "topology", "ring", "codec"]
-# The folder whose declarations a public header of lrcore has. Those of lrio are in LRIO.
+# By public header of lrcore: the folder of its declarations. LRIO has those of lrio.
 PUBLIC = {"base.hpp": "base", "corner_walks.hpp": "base", "lacedring_decode.h": "base", "topology.hpp": "topology", "ring.hpp": "ring", "streams.hpp": "codec",
           "operators.hpp": "codec", "vertices.hpp": "codec", "lacedring_vertices.h": "base", "seams.hpp": "codec", "lacedring_seams.h": "base",
           "lacedring_storage.h": "base", "lacedring_stored_seams.h": "base", "lacedring.hpp": "codec", "lacedring.h": "codec"}
 LRIO = {"file.hpp", "materials.hpp", "mesh.hpp", "mesh_files.hpp", "primitives.hpp", "scene.h", "scene.hpp", "surface.hpp", "lr_file.hpp"}
-# Decoding and validating: these files include each other, and nothing else of lrcore but base.
+# The files that decode and validate. They may include each other and, of the rest of lrcore, only base.
 DECODERS = {"lacedring/streams.hpp", "lacedring/operators.hpp", "lacedring/corner_walks.hpp", "lacedring/base.hpp", "lacedring/lacedring_decode.h", "lacedring/vertices.hpp",
             "lacedring/lacedring_vertices.h", "lacedring/seams.hpp", "lacedring/lacedring_seams.h",
             "lacedring/lacedring_storage.h", "lacedring/lacedring_stored_seams.h", *("lrcore/codec/" + name for name in (
                 "stream_view.cpp", "decode_slot.h", "lean/lean_format.h", "lean/lean_stream.cpp", "packed/packed_format.h", "packed/packed_c.h",
                 "packed/packed_stream.cpp", "packed/decode.cpp", "tables/lr_stream.cpp", "tables/tables_decode.h",
                 "tables/stream_header.h", "tables/validate.cpp", "vertices/vertex_stream.cpp", "seams/seam_section.cpp"))}
-# The standard headers that a freestanding-minded library wants. <thread> is for those who ask for threads.
+# The standard headers that lrcore may include. <thread> is for callers that request threads.
 STANDARD = {"algorithm", "array", "atomic", "bit", "cassert", "cmath", "compare", "concepts", "cstddef", "cstdint", "cstring",
             "exception", "functional", "iterator", "limits", "memory", "new", "numeric", "optional", "queue", "span", "string", "string_view", "system_error",
             "tuple", "type_traits", "unordered_map", "utility", "variant", "vector"}
 THREADS = "lrcore/base/parallel.cpp"
-VECTORS = "lrcore/base/compiler.h"  # emmintrin.h, where the compiler has SSE2
+VECTORS = "lrcore/base/compiler.h"  # may include emmintrin.h for SSE2
 
 
 def includes(path):
-    """(line number, header, whether it is in quotes)"""
+    """(line number, header, whether it is in quotes) of each include."""
     for number, line in enumerate(path.read_text().splitlines(), 1):
         found = re.match(r'\s*#\s*include\s*([<"])([^>"]+)', line)
         if found:
@@ -38,7 +38,7 @@ def includes(path):
 
 
 def folders_of_readme(root):
-    """The folders of its table, in order. "lrcore/base, topology" are lrcore/base and lrcore/topology."""
+    """The folders of the README's table, in order. "lrcore/base, topology" stands for lrcore/base and lrcore/topology."""
     text = (root / "README.md").read_text()
     rows = text[text.index("| folder | what |"):].split("\n\n")[0].splitlines()[2:]
     out, parent = [], ""
@@ -53,7 +53,7 @@ def folders_of_readme(root):
 
 
 def place_of(name, folders):
-    """The number of the folder that a file is in. One that has folders in the table holds only files of its own. None: there is none."""
+    """The number of a file's folder in the table; None if it has none. A folder with subfolders in the table has only its own files."""
     for i, folder in enumerate(folders):
         parent = any(other.startswith(folder + "/") for other in folders)
         if name.rpartition("/")[0] == folder or (not parent and name.startswith(folder + "/")):
@@ -62,13 +62,13 @@ def place_of(name, folders):
 
 
 def owner_of(header):
-    """The path of a header in quotes, as far as it matters."""
+    """The path of a header in quotes below the repository's root; public headers get their folder."""
     folder, _, name = header.partition("/")
     return ("lrio/" if name in LRIO else "lrcore/include/") + header if folder == "lacedring" else header
 
 
 def folder_of(name):
-    """The folder of CORE that a file of lrcore, named as it is included, belongs to."""
+    """The folder in CORE of a file of lrcore. `name`: the path in its #include."""
     folder, _, rest = name.partition("/")
     return PUBLIC.get(rest) if folder == "lacedring" else rest.split("/")[0]
 

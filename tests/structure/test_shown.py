@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""test_shown.py ROOT: the examples that documents show are the files in examples/, line by line, and each file is shown.
+"""test_shown.py ROOT: each file in examples/ is shown in a document, line by line.
 
-A document shows a file by <!-- examples/NAME --> and the code block behind it."""
+A document shows a file by <!-- examples/NAME --> and the code block after it."""
 
 import pathlib
 import re

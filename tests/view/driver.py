@@ -1,4 +1,4 @@
-"""What the viewer's tests share: a display of Xvfb, a folder, a way to run scripts."""
+"""Runs viewer scripts on a display of Xvfb in a temporary folder; shared by the viewer's tests."""
 
 import json
 import os
@@ -38,7 +38,7 @@ def mesh(kind, triangles, seed=1):
 
 class Scripted(unittest.TestCase):
     def view(self, script, *arguments, code=0, size="480x320"):
-        """Runs a script with validation, and gives the lines that it prints."""
+        """Runs a script with validation and returns the printed lines."""
         with tempfile.NamedTemporaryFile("w", dir=folder, suffix=".txt", delete=False) as file:
             file.write(script + "\nclose\n")
         done = run("view", *arguments, "--size", size, "--validation", "--script", file.name)
@@ -49,7 +49,7 @@ class Scripted(unittest.TestCase):
 
 
 def start_display(size="1600x1200", *options):
-    """Xvfb on a free number; its process and name."""
+    """Starts Xvfb on a free display number; returns its process and name."""
     read, write = os.pipe()
     server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{size}x24", "-nolisten", "tcp", *options],
                               pass_fds=[write], stderr=subprocess.DEVNULL)
@@ -67,10 +67,10 @@ def stop(server):
 
 
 def main():
-    """Runs the tests of the calling file, on a display and in a folder of their own."""
+    """Runs the tests of the calling file on their own display and in their own folder."""
     global program, display, folder
     program = os.path.abspath(sys.argv.pop(1))
-    server, display = start_display()  # without Xvfb this fails: nothing is skipped
+    server, display = start_display()  # fails without Xvfb
     try:
         with tempfile.TemporaryDirectory() as folder:
             outcome = unittest.main(exit=False, verbosity=2 if "-v" in sys.argv else 1)

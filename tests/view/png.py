@@ -1,11 +1,11 @@
-"""Reads PNG files of 8 bits a channel, and what a screen shows, without any library."""
+"""Reads PNG files of 8 bits per channel, and the contents of an Xvfb screen, without libraries."""
 
 import struct
 import zlib
 
 
 def read(path):
-    """Width, height, and a list of rows, each bytes of 3 a pixel."""
+    """Width, height, and a list of rows with 3 bytes per pixel."""
     with open(path, "rb") as file:
         data = file.read()
     assert data[:8] == b"\x89PNG\r\n\x1a\n", path
@@ -46,7 +46,7 @@ def read(path):
 
 
 def read_screen(folder):
-    """What an Xvfb with the option -fbdir FOLDER shows (an XWD file of 32 bits a pixel), as read."""
+    """The screen of an Xvfb with the option -fbdir FOLDER (an XWD file of 32 bits per pixel), as from read()."""
     with open(f"{folder}/Xvfb_screen0", "rb") as file:
         data = file.read()
     header = struct.unpack(">20I", data[:80])
@@ -63,7 +63,7 @@ def read_screen(folder):
 
 
 def differences(a, b):
-    """Pixels that differ, and the largest difference of a channel."""
+    """The number of different pixels, and the largest difference of a channel."""
     assert a[:2] == b[:2], (a[:2], b[:2])
     pixels = largest = 0
     for left, right in zip(a[2], b[2]):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The viewer where disks, threads, devices and displays fail. Usage: test_faults.py LACEDRING FAULTS_LIBRARY"""
+"""Tests the viewer with failing disks, threads, devices and displays. Usage: test_faults.py LACEDRING FAULTS_LIBRARY"""
 
 import json
 import os
@@ -16,7 +16,7 @@ import png
 from driver import mesh, run
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "shaders")
-SOON = 20  # seconds; what never ends is found out, and a busy machine is not
+SOON = 20  # seconds: a limit for what must not hang, long enough for a busy machine
 faults = None
 
 
@@ -36,7 +36,7 @@ class Faults(driver.Scripted):
         return path
 
     def faulty(self, script, *arguments, code=0, size="480x320", display=None, faults_on=True, **variables):
-        """Runs a script with faults; the states that it prints, what it says, and the seconds that it took."""
+        """Runs a script with faults; returns the printed states, standard error, and the seconds that it took."""
         with open(self.path("script.txt"), "w") as file:
             file.write(script + "\nclose\n")
         environment = dict(os.environ, DISPLAY=display or driver.display, XDG_STATE_HOME=self.state, **variables)
@@ -50,7 +50,7 @@ class Faults(driver.Scripted):
         return [json.loads(line) for line in done.stdout.splitlines()], done.stderr, seconds
 
     def slow(self, script, *arguments, seconds=3600, **options):
-        """With a disk that answers no reads of files called slow-*.ply for so many seconds."""
+        """Runs a script with a disk that delays reads of files slow-*.ply by `seconds`."""
         return self.faulty(script, *arguments, FAULT_SLOW_FILE="-slow.ply", FAULT_SLOW_SECONDS=str(seconds), **options)
 
     def slow_mesh(self, name=""):
@@ -74,7 +74,7 @@ class Faults(driver.Scripted):
         done = run("view", "--script", pipe, timeout=SOON)
         self.assertEqual(done.returncode, 3)
         self.assertIn("pipe.ply: is not a regular file", done.stderr)
-        # The list of recent files is lost, and is not written to a pipe either.
+        # If the list of recent files is a pipe, it is neither read nor written.
         recent = self.fifo("state", "lacedring", "recent")
         self.faulty("wait mesh", mesh("torus", 500))
         viewer = subprocess.Popen([driver.program, "view", mesh("torus", 500), "--fps", "1000"], cwd=driver.folder,
@@ -100,7 +100,7 @@ class Faults(driver.Scripted):
             _, said, seconds = self.slow(script, slow)
             self.assertEqual(said, "")
             self.assertLess(seconds, SOON)
-        # So it is with a folder of shaders on such a disk.
+        # The same holds for a folder of shaders on such a disk.
         shaders = self.path("glsl")
         shutil.copytree(SOURCES, shaders)
         _, said, seconds = self.faulty("frames 20", "--shaders", shaders, FAULT_SLOW_FILE="/surface.frag")
@@ -164,7 +164,7 @@ class Faults(driver.Scripted):
         torus = mesh("torus", 500)
         _, said, _ = self.faulty("frames 1", torus, code=4, FAULT_THREADS="0")
         self.assertEqual(said, "lacedring: view: no thread can be started: Resource temporarily unavailable\n")
-        # The uploader's is there. Its window stays, and says why nothing comes.
+        # With only some threads the window stays open and shows the error.
         for threads in ("1", "2", "3"):
             states, said, _ = self.faulty("frames 5\nprint", torus, FAULT_THREADS=threads)
             self.assertEqual(said, "")
@@ -182,7 +182,7 @@ class Faults(driver.Scripted):
         self.assertEqual(said, "")
         self.assertEqual([state["window"] for state in states], [[600, 500], [500, 400]])
         self.assertEqual([state["size"] for state in states], [[600, 500], [500, 400]])
-        # One that its system does not shrink shows nothing but its title.
+        # A window that the system does not shrink shows only its title.
         states, said, _ = self.faulty(script, torus, "--validation", FAULT_IMAGE_LIMIT="600", FAULT_WINDOW_STAYS="1")
         self.assertEqual(said, "")
         self.assertEqual([state["window"] for state in states], [[700, 500], [500, 400]])
@@ -202,7 +202,7 @@ class Faults(driver.Scripted):
         self.assertEqual([state["size"] for state in states], [[largest, 100], [640, 200]])
 
     def test_a_picture_that_does_not_fit_is_scaled(self):
-        """Where the device's memory does not hold one of the window's size."""
+        """A picture of the window's size does not fit the device's memory."""
         screen = self.path("screen")
         os.mkdir(screen)
         server, display = driver.start_display("1200x900", "-fbdir", screen)
@@ -225,7 +225,7 @@ class Faults(driver.Scripted):
                 self.assertEqual((width, height), (1200, 900))
                 drawn = png.read(self.path("shot.png"))
                 step = 1200 // size[0]
-                far = 0  # pixels where an edge is interpolated
+                far = 0  # pixels at interpolated edges
                 for y, row in enumerate(drawn[2]):
                     over = shown[y * step + step // 2]
                     for x in range(size[0]):
@@ -252,7 +252,7 @@ class Faults(driver.Scripted):
                     viewer.kill()
                     driver.stop(server)
                 if said.startswith("lacedring: view: no usable display"):
-                    continue  # it had not begun
+                    continue  # the viewer had not started
                 self.assertEqual((viewer.returncode, said), (4, "lacedring: display: the connection to the X server is lost\n"))
 
 

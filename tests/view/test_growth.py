@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The viewer's growing ring, turntable pictures and cap of pictures, by scripts in a window of Xvfb.
+"""Tests the viewer's growing ring, turntable pictures and limit of pictures, by scripts in a window of Xvfb.
 Usage: test_growth.py LACEDRING"""
 
 import os
@@ -10,13 +10,13 @@ import driver
 import png
 from driver import mesh, run
 
-# The shares of red, green and blue that a lit colour keeps (shaders/viewer/compose_shared.h).
+# Lighting keeps the ratios of red, green and blue of these colors (shaders/viewer/compose_shared.h).
 ORANGE, YELLOW, CREAM, GREY, BLUE, BLACK = (222, 112, 48), (255, 214, 60), (247, 234, 200), (168, 172, 180), \
     (24, 96, 220), (24, 24, 28)
 
 
 def nearest(pixel):
-    """Which of the colours a pixel is, whatever light is on it; None: too dark to tell."""
+    """The color of a lit pixel; None if it is too dark."""
     r, g, b = pixel
     if max(pixel) < 60:
         return None
@@ -26,7 +26,7 @@ def nearest(pixel):
 
 
 def counts(name, background):
-    """Pixels of each colour where the mesh is drawn: where the picture is not the background."""
+    """Counts pixels by color where the picture differs from the background."""
     out = {}
     picture = png.read(name)
     for row, behind in zip(picture[2], background[2]):
@@ -56,19 +56,19 @@ class Growth(driver.Scripted):
         behind = self.background()
         states = self.shots(mesh("torus", 500), (0, 1, 60, 1000000))
         _, end = states[0]["growth"]
-        self.assertEqual(end, 248)  # of a ring of 250 vertices
+        self.assertEqual(end, 248)  # a ring of 250 vertices has 248 steps
         seen = [counts(f"{driver.folder}/growth-{stage}.png", behind) for stage in (0, 1, 60, 1000000)]
         grey = [each.get(GREY, 0) for each in seen]
         orange = [each.get(ORANGE, 0) for each in seen]
-        # At first nothing is settled, at last everything; so it goes on.
+        # Nothing is settled at first, and everything at last.
         self.assertGreater(grey[0], 10000)
         self.assertEqual([seen[0].get(c, 0) for c in (ORANGE, YELLOW, CREAM, BLUE)], [0, 0, 0, 0])
         self.assertGreater(grey[0], grey[2])
         self.assertGreater(grey[2], grey[3])
         self.assertLess(orange[2], orange[3])
         self.assertGreater(seen[2].get(BLUE, 0), 30)
-        self.assertLess(seen[3].get(BLUE, 0), 30)  # the front is gone
-        # Half of the surface each, about.
+        self.assertLess(seen[3].get(BLUE, 0), 30)  # no front at the end
+        # Each side is about half of the surface.
         self.assertGreater(seen[3][ORANGE] + seen[3].get(YELLOW, 0), seen[3][CREAM] // 2)
         self.assertGreater(seen[3][CREAM], (seen[3][ORANGE] + seen[3].get(YELLOW, 0)) // 2)
 
@@ -136,7 +136,7 @@ class Growth(driver.Scripted):
         self.assertEqual(states[1]["growth"][0], states[1]["growth"][1])
         self.assertEqual([state["growth"][0] for state in states[2:]], [77, 77, 77])
 
-    def test_paint_that_comes_later_and_marks(self):
+    def test_each_paint_and_selection_changes_the_picture(self):
         blob = mesh("blob", 3000)
         names = [f"{driver.folder}/paint-{i}.png" for i in range(6)]
         self.view(f"""set panels off
@@ -183,7 +183,7 @@ class Growth(driver.Scripted):
                    "--camera-azimuth-angle", "90", *states[0]["camera"].split())
         self.assertEqual(done.returncode, 0, done.stderr)
         pixels, largest = png.differences(pictures[2], png.read(rendered))
-        self.assertLessEqual(largest, 1)  # the background, as in test_view.py
+        self.assertLessEqual(largest, 1)  # only the background differs, as in test_view.py
         self.assertLessEqual(pixels, 480 * 320 // 20)
 
     def test_turntable_that_is_stopped(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Where the viewer's panels are: inside the window, side by side, none with text cut off. Usage: test_panels.py LACEDRING"""
+"""The viewer's panels are inside the window, do not overlap, and cut off no text. Usage: test_panels.py LACEDRING"""
 
 import json
 import os
@@ -9,7 +9,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import driver
 from driver import mesh, run
 
-SIDES = {"choices", "numbers", "bar"}  # these share the window; the others lie over the picture, or over all
+SIDES = {"choices", "numbers", "bar"}  # panels beside the picture; the others are over it
 OVER_ALL = {"help", "error"}
 LONG = "/" + "/".join(["a-folder-with-a-long-name"] * 9) + "/no-such-file.ply"
 
@@ -20,7 +20,7 @@ def overlap(a, b):
 
 class Panels(driver.Scripted):
     def check(self, state, drawer=False):
-        """No panel leaves the window, hides part of a line, or lies over another; their boxes by name."""
+        """Checks that panels are inside the window, show whole lines and do not overlap. Returns their boxes by name."""
         width, height = state["size"]
         boxes = {}
         for panel in state["panels"]:
@@ -30,7 +30,7 @@ class Panels(driver.Scripted):
             self.assertLessEqual(x + w, width + 0.5, where)
             self.assertLessEqual(y + h, height + 0.5, where)
             self.assertLessEqual(panel["hidden"][0], 1, "clipped on its right: " + where)
-            if "/" not in panel["name"]:  # a list inside a panel
+            if "/" not in panel["name"]:  # names with / are lists inside a panel
                 boxes[panel["name"]] = panel["box"]
         for a in boxes:
             for b in boxes:
@@ -49,7 +49,7 @@ class Panels(driver.Scripted):
         script += ["set paint none", "set view class", "click {middle}", "wait tables", "frames 3", "print"]
         for size, scale in (("1280x720", 1), ("2560x1440", 2)):
             middle = " ".join(str(int(x) // 2) for x in size.split("x"))
-            lines = script if scale == 1 else script[:5] + script[-8:]  # large pictures take long
+            lines = script if scale == 1 else script[:5] + script[-8:]  # shorter, because large pictures take long
             states = self.view("\n".join(lines).replace("{middle}", middle), mesh("sphere", 600), "--scale", str(scale),
                                size=size)
             for state in states:
@@ -57,7 +57,7 @@ class Panels(driver.Scripted):
                 self.assertLessEqual(SIDES, set(boxes))
                 for name in SIDES:
                     self.assertEqual(self.hidden_below(state, name), 0, f"{name} of {size} needs scrolling")
-            self.assertIn("legend", self.check(states[0]))  # the ring
+            self.assertIn("legend", self.check(states[0]))  # the legend of the ring
             self.assertIn("legend", self.check(states[1]))
             self.assertLessEqual({"legend", "selection"}, set(self.check(states[-1])))
 
@@ -109,7 +109,7 @@ class Panels(driver.Scripted):
     def test_numbers_are_those_of_stats(self):
         torus = mesh("torus", 600)
         state, = self.view("wait ready\nprint", torus)
-        # Another ring, asked for before they are measured, does not do away with them.
+        # The numbers are also measured if another ring is requested before.
         again, = self.view("wait mesh\nset passes 3\nwait ready\nprint", torus)
         self.assertEqual(again["formats"], state["formats"])
         stats = json.loads(run("stats", torus, "--json").stdout)["meshes"][0]["formats"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shaders edited while the viewer draws with them. Usage: test_reload.py LACEDRING"""
+"""Tests editing shaders while the viewer draws with them. Usage: test_reload.py LACEDRING"""
 
 import json
 import os
@@ -20,11 +20,11 @@ RED = "vec3 albedo = vec3(0.90, 0.05, 0.05);"
 class Reload(driver.Scripted):
     def setUp(self):
         self.folder = os.path.join(driver.folder, self.id().split(".")[-1])
-        self.shaders = os.path.join(self.folder, "glsl")  # whatever it is called
+        self.shaders = os.path.join(self.folder, "glsl")  # any name works
         shutil.copytree(SOURCES, self.shaders)
 
     def edited(self, name, old, new):
-        """Lines of a script that put an edited shader in its place, and wait until it has been seen."""
+        """Script lines that replace a shader by an edited one, and wait until the viewer has noticed."""
         with open(os.path.join(SOURCES, name)) as file:
             text = file.read()
         self.assertIn(old, text)
@@ -73,10 +73,10 @@ class Reload(driver.Scripted):
             self.shot("notice") + " now", "print", "key escape", "frames 3", self.shot("closed"), "print",
             self.edited("draw/line.frag", "void main", "void mine"), "print",
             self.mended("draw/surface.frag"), self.mended("draw/line.frag"), self.shot("after"), "print")
-        self.assertRegex(broken["error"], r"^shaders/draw/surface\.frag:71: ")  # where the next statement begins
+        self.assertRegex(broken["error"], r"^shaders/draw/surface\.frag:71: ")  # the line of the next statement
         self.assertEqual((broken["replaced"], broken["reloads"]), (0, 0))
         self.assertEqual(closed["error"], "")
-        # One notice of all that is wrong, at the top of the window; the picture under it is as it was.
+        # One notice at the top of the window lists all errors; the picture does not change.
         self.assertEqual(len(other["error"].splitlines()), 2)
         pixels, _ = self.differences("before", "notice")
         self.assertGreater(pixels, 1000)
@@ -91,7 +91,7 @@ class Reload(driver.Scripted):
             "set view ring", "wait settled", "print", self.shot("before"),
             self.edited("draw/surface_vertex.glsl", "vec3(0.045, 0.085, 0.50)", "vec3(0.9, 0.9, 0.0)"), self.shot("other"),
             "print", self.edited("draw/surface_vertex.glsl", "v.clip = clip;", "v.clap = clip;"), "print")
-        # Those that include it, and no others.
+        # Only shaders that include it are compiled.
         including = moved["compiled"] - start["compiled"]
         self.assertGreaterEqual(including, 4)
         self.assertLess(including, 10)
@@ -126,11 +126,11 @@ class Reload(driver.Scripted):
                       f"set source {('lean', 'packed')[i % 2]}", "frames 4", "key f5", "frames 1"]
         lines += ["set decode off", "set turntable off", self.mended("draw/surface.frag"), "wait settled", "print"]
         states = self.script(*lines)
-        self.assertGreaterEqual(states[-1]["reloads"], 4)  # edits that come close together are one
+        self.assertGreaterEqual(states[-1]["reloads"], 4)  # edits within a short time are one reload
         self.assertEqual((states[-1]["error"], states[-1]["replaced"]), ("", 0))
 
     def test_index_buffers_are_made_anew(self):
-        """By decoders and by the rotating pass, which works in place, without another mesh."""
+        """An edited decoder or rotating pass, which works in place, decodes the index buffer again, without loading a mesh."""
         store, nothing = "indices[to] = uvec4(t0, t1.x);", "indices[to] = uvec4(0u);"
         rotated, none = "indices[at] = uvec4(t0, t1.x);", "indices[at] = uvec4(0u);"
         for mode in ("single", "split"):
@@ -151,7 +151,7 @@ class Reload(driver.Scripted):
         self.assertEqual(states[1]["shaders"]["error"], "")
 
     def test_without_sources(self):
-        """An installed program has none; --shaders must be a folder."""
+        """An installed program has no shader sources; --shaders must be a folder."""
         programs = os.path.join(self.folder, "bin")
         os.mkdir(programs)
         for name in ("lacedring", "lacedring-view"):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The viewer, driven by scripts in a window of Xvfb. Usage: test_view.py LACEDRING"""
+"""Tests the viewer by scripts in a window of Xvfb. Usage: test_view.py LACEDRING"""
 
 import json
 import os
@@ -27,7 +27,7 @@ class View(driver.Scripted):
             self.assertEqual(done.returncode, 0, done.stderr[-500:])
             for library in WINDOW_LIBRARIES:
                 self.assertNotIn(library, done.stderr, arguments)
-        # Vulkan drivers may load a window system's libraries; nobody loads ours.
+        # Vulkan drivers may load libraries of the window system, but nothing loads the viewer's library.
         for arguments in (["render", torus, "-o", os.path.join(driver.folder, "t.png"), "--size", "64x64"],
                           ["compare", torus, "--size", "64x64", "--path", "compute", "--source", "lean"]):
             done = run(*arguments, environment=trace)
@@ -60,9 +60,9 @@ class View(driver.Scripted):
         for text in (f"wrong.txt:{before.count(chr(10)) + 1}: ", *why):
             self.assertIn(text, done.stderr, line)
 
-    def test_what_a_script_may_not_say(self):
-        """Nothing is ignored, and no number is changed to one that fits."""
-        self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # as long as the device has none
+    def test_invalid_script_lines(self):
+        """Unknown words and numbers out of range are errors."""
+        self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # the device has no mesh shaders
         for line in ("set warts yes", "set samples 4", "set samples 1.5", "set divider 1.1", "set k -5", "set k nan",
                      "set passes 2x", "set colour red", "set view", "set view smooth flat", "wait dinner", "frames", "frames 1e99",
                      "frames 2 3", "resize 0 5", "move inf 2", "click 1 2 both", "drag 1 2 3 4 left now", "key %", "key a alt",
@@ -97,10 +97,10 @@ class View(driver.Scripted):
                        "--view", view, "--seeds", "1", *camera)
             self.assertEqual(done.returncode, 0, done.stderr)
             pixels, largest = png.differences(png.read(f"{driver.folder}/{view}.png"), png.read(f"{driver.folder}/r.png"))
-            # The background is computed by the device in the one and by the CPU in the other.
+            # The background is computed by the device in one picture and by the CPU in the other.
             self.assertLessEqual(largest, 1, view)
             self.assertLessEqual(pixels, 480 * 320 // 20, view)
-        # Its creases are lines only, those of `render` all that are sharp.
+        # The silhouette view has lines that the smooth view does not.
         smooth, lines = (png.read(f"{driver.folder}/{view}.png") for view in ("smooth", "silhouette"))
         self.assertGreater(png.differences(smooth, lines)[0], 500)
 
@@ -175,7 +175,7 @@ class View(driver.Scripted):
             wait optimised
             print""", torus)
         self.assertEqual([state["file"] for state in states[:3]], [torus] * 3)
-        # The notice is in the picture as soon as the error is waited for: red, in the middle, below the legend.
+        # After `wait error` the picture has the notice: red, in the middle, below the legend.
         red, green, blue = png.read(f"{driver.folder}/notice.png")[2][45][3 * 240:3 * 241]
         self.assertGreater(red, 2 * max(green, blue))
         self.assertEqual(states[0]["error"], "")
@@ -285,10 +285,10 @@ class View(driver.Scripted):
         on, off = (png.read(f"{driver.folder}/ring-{name}.png") for name in ("on", "off"))
         self.assertGreater(png.differences(on, off)[0], 3000)
         darker = sum(sum(a) < sum(b) for a, b in zip(on[2], off[2]))
-        self.assertGreater(darker, 150)  # rows of pixels
+        self.assertGreater(darker, 150)  # differing rows of pixels
 
     def globe(self):
-        """A textured mesh with seams, and nothing to tell of: without the -0 that its file has."""
+        """A textured mesh with seams, without the -0 of its file, which would cause a notice."""
         path = os.path.join(driver.folder, "globe.glb")
         with open(os.path.join(ASSETS, "globe.glb"), "rb") as file:
             data = file.read()
@@ -339,8 +339,8 @@ class View(driver.Scripted):
             print""", mesh("sphere", 600), size="1280x720")
         legend, box = ({panel["name"]: panel["box"] for panel in states[0]["panels"]}[name] for name in ("legend", "selection"))
         self.assertLessEqual(legend[1] + legend[3], 60)
-        self.assertGreater(540, box[1])  # it would have been covered
-        self.assertEqual(states[0]["camera"] != states[1]["camera"], False)  # and what is in sight stays where it is
+        self.assertGreater(540, box[1])  # the panel would cover it
+        self.assertEqual(states[0]["camera"] != states[1]["camera"], False)  # a visible selection does not move the camera
 
     def test_screenshot_option(self):
         name = os.path.join(driver.folder, "option.png")
