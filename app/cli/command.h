@@ -37,8 +37,6 @@ struct RingChoice {
     std::uint32_t threads = 0;                      ///< at most; 0: all of the machine
     std::string optimize = "auto";  ///< passes of the optimiser: a number, or as many as optimize_rings recommends
 };
-/// Refuses a number with a minus sign, which CLI11 would take for one near 2^64.
-std::string refuse_negative(const std::string& number);
 void add_ring_options(CLI::App& command, RingChoice& choice);
 /// For a format that is best with the ring-expander. With --ring hybrid, --k auto means the paper's median, 100.
 RingOptions ring_options(const RingChoice& choice, std::size_t triangles);

@@ -14,6 +14,7 @@
 #include "app/cli/command.h"
 #include "app/cli/gpu_options.h"
 #include "app/cli/option_rules.h"
+#include "app/cli/values.h"
 #include "app/view/script/script.h"
 #include "app/view/session/threads.h"
 #include "app/view/ui/viewer.h"
@@ -173,11 +174,12 @@ int start(int argc, char** argv, Threads& threads) {
     app::add_input_options(program, options.viewer.input.options, 250);
     options.viewer.input.options.materials = true;
     app::add_size(program, options.size);
-    program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told")
-        ->check(CLI::Range(0.5, 8.0));
+    app::allow_numbers(
+        program.add_option("--scale", options.scale, "pixels a nominal pixel of the panels; the display's unless told"),
+        0.5, 8);
     program.add_flag("--no-panels", options.no_panels, "the picture alone, until Tab is pressed");
-    program.add_option("--fps", options.viewer.frame_cap, "pictures a second at most; 0: no limit")
-        ->check(CLI::Range(0, 1000))
+    app::allow_whole_numbers(
+        program.add_option("--fps", options.viewer.frame_cap, "pictures a second at most; 0: no limit"), 0, 1000)
         ->capture_default_str();
     auto* screenshot =
         program.add_option("--screenshot", options.screenshot, "write a PNG file when all is shown, and end")
