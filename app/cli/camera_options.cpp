@@ -6,6 +6,8 @@
 #include <charconv>
 #include <string_view>
 
+#include "app/cli/values.h"
+
 namespace lacedring::app {
 namespace {
 
@@ -39,34 +41,40 @@ bool parse_up(std::string_view text, Vector& out) {
 }
 
 template <class Parse, class Set>
-void add_vector(CLI::App& command, const char* name, const char* type, const char* what, Parse parse, Set set) {
+void add_vector(CLI::App& command, const char* name, const char* allowed, const char* what, Parse parse, Set set) {
     command
         .add_option_function<std::string>(
             name,
             [=](const std::string& text) {
                 Vector value{};
-                if (!parse(text, value)) throw CLI::ValidationError(name, "not " + std::string(type));
+                if (!parse(text, value)) throw CLI::ValidationError(name, refusal(text, allowed));
                 set(value);
             },
             what)
-        ->type_name(type);
+        ->type_name("X,Y,Z");
 }
 
 }  // namespace
 
 void add_camera(CLI::App& command, gpu::CameraOptions& camera) {
-    add_vector(command, "--up", "[+|-]X|Y|Z or X,Y,Z", "direction that is up in the picture, +Y unless told", parse_up,
+    add_vector(command, "--up", "X, Y or Z with + or - before it, or three numbers X,Y,Z",
+               "direction that is up in the picture, +Y unless told", parse_up,
                [&camera](const Vector& v) { camera.up = v; });
-    add_vector(command, "--camera-position", "X,Y,Z", "where the eye is, in the mesh's coordinates", parse_vector,
-               [&camera](const Vector& v) { camera.position = v; });
-    add_vector(command, "--camera-focal-point", "X,Y,Z", "what the eye looks at", parse_vector,
+    add_vector(command, "--camera-position", "three numbers X,Y,Z", "where the eye is, in the mesh's coordinates",
+               parse_vector, [&camera](const Vector& v) { camera.position = v; });
+    add_vector(command, "--camera-focal-point", "three numbers X,Y,Z", "what the eye looks at", parse_vector,
                [&camera](const Vector& v) { camera.focal_point = v; });
-    command.add_option("--camera-azimuth-angle", camera.azimuth, "degrees the eye is moved to its right, around");
-    command.add_option("--camera-elevation-angle", camera.elevation, "degrees the eye is then moved up, around");
-    command.add_option("--camera-zoom-factor", camera.zoom, "how many times nearer the eye is then")
-        ->capture_default_str();
-    command.add_option("--camera-view-angle", camera.view_angle, "degrees seen along the picture's shorter side")
-        ->capture_default_str();
+    const auto add = [&](const char* name, double& value, const char* help) {
+        return command.add_option(name, value, help)->capture_default_str();
+    };
+    allow_numbers(add("--camera-azimuth-angle", camera.azimuth, "degrees the eye is moved to its right, around"),
+                  -kNoLimit, kNoLimit);
+    allow_numbers(add("--camera-elevation-angle", camera.elevation, "degrees the eye is then moved up, around"),
+                  -kNoLimit, kNoLimit);
+    allow_numbers_between(add("--camera-zoom-factor", camera.zoom, "how many times nearer the eye is then"), 0,
+                          kNoLimit);
+    allow_numbers_between(
+        add("--camera-view-angle", camera.view_angle, "degrees seen along the picture's shorter side"), 0, 179);
 }
 
 Result<gpu::CameraOptions> parse_camera(std::vector<std::string> words) {

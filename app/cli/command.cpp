@@ -12,41 +12,26 @@
 #include <thread>
 
 #include "app/cli/progress.h"
+#include "app/cli/values.h"
 #include "lacedring/lacedring.hpp"
 #include "renderer/vk/device_error.h"
 
 namespace lacedring::app {
 
-std::string refuse_negative(const std::string& number) {
-    return number.starts_with('-') ? number + " is negative" : std::string();
-}
-
 void add_ring_options(CLI::App& command, RingChoice& choice) {
-    command
-        .add_option("--ring", choice.ring, "ring construction for every format, not for each the one it is best with")
-        ->check(CLI::IsMember({"expander", "hybrid"}));
-    command.add_option("--k", choice.k, "period of the hybrid, or auto: several are tried and the smallest kept")
-        ->check([](const std::string& text) {
-            std::uint32_t k = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), k);
-            const bool number = error == std::errc() && end == text.data() + text.size() && k > 0;
-            return number || text == "auto" ? std::string() : "k is a number above 0, or auto";
-        })
-        ->capture_default_str();
-    command.add_option("--seeds", choice.seeds, "seed corners tried per component; 0: by the mesh's size")
-        ->check(CLI::Range(0, 100000))
-        ->capture_default_str();
-    command.add_option("--random-seed", choice.random_seed, "for the choice of seed corners")
-        ->check(refuse_negative)
-        ->capture_default_str();
-    command.add_option("--optimize", choice.optimize, "passes of the ring optimiser: a number, 0 for none, or auto")
-        ->check([](const std::string& text) {
-            std::uint32_t passes = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), passes);
-            const bool number = error == std::errc() && end == text.data() + text.size() && passes <= 100000;
-            return number || text == "auto" ? std::string() : "passes are a number up to 100000, or auto";
-        })
-        ->capture_default_str();
+    const auto add = [&](const char* name, auto& value, const char* help) {
+        return command.add_option(name, value, help)->capture_default_str();
+    };
+    allow_words(add("--ring", choice.ring, "ring construction for every format, not for each the one it is best with"),
+                {"expander", "hybrid"});
+    allow_whole_numbers(add("--k", choice.k, "period of the hybrid, or auto: several are tried and the smallest kept"),
+                        1, UINT32_MAX, "auto");
+    allow_whole_numbers(add("--seeds", choice.seeds, "seed corners tried per component; 0: by the mesh's size"), 0,
+                        100000);
+    allow_whole_numbers(add("--random-seed", choice.random_seed, "for the choice of seed corners"), 0, UINT64_MAX);
+    allow_whole_numbers(
+        add("--optimize", choice.optimize, "passes of the ring optimiser: a number, 0 for none, or auto"), 0, 100000,
+        "auto");
 }
 
 namespace {
@@ -120,7 +105,7 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
 
 void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
               const char* what) {
-    command.add_option(name, bits, what)->check(CLI::Range(least, most))->type_name("BITS")->default_str("");
+    allow_whole_numbers(command.add_option(name, bits, what), least, most)->type_name("BITS")->default_str("");
 }
 
 void add_position_bits(CLI::App& command, std::uint32_t& bits) {
@@ -128,15 +113,14 @@ void add_position_bits(CLI::App& command, std::uint32_t& bits) {
 }
 
 void add_threads(CLI::App& command, const std::vector<std::uint32_t*>& asked) {
-    command
-        .add_option_function<std::uint32_t>(
-            "--threads",
-            [asked](std::uint32_t threads) {
-                for (std::uint32_t* one : asked) *one = threads;
-            },
-            "run on at most so many threads; unless told on all of the machine. The result is the same for any")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+    const auto set = [asked](std::uint32_t threads) {
+        for (std::uint32_t* one : asked) *one = threads;
+    };
+    allow_whole_numbers(
+        command.add_option_function<std::uint32_t>(
+            "--threads", set,
+            "run on at most so many threads; unless told on all of the machine. The result is the same for any"),
+        1, 1024);
 }
 
 unsigned thread_count(std::uint32_t asked) {

@@ -38,8 +38,6 @@ struct RingChoice {
     std::uint32_t threads = 0;      ///< most threads; 0: all of the machine
     std::string optimize = "auto";  ///< passes of the ring optimizer, or "auto"
 };
-/// A check for CLI11, which would read -1 as 2^64 - 1: returns an error for a number with a minus sign, else "".
-std::string refuse_negative(const std::string& number);
 void add_ring_options(CLI::App& command, RingChoice& choice);
 /// Options for formats that are smallest with the ring-expander. With --ring hybrid, --k auto means the paper's median,
 /// 100.

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "app/cli/print.h"
+#include "app/cli/values.h"
 
 namespace lacedring::app {
 namespace {
@@ -25,12 +26,12 @@ bool parse_size(const std::string& text, PictureSize& size) {
 void add_device_options(CLI::App& command, gpu::ContextOptions& options) {
     command.add_option("--device", options.device, "part of the name of the Vulkan device to use, or of its driver")
         ->type_name("NAME");
-    command
-        .add_option_function<std::uint64_t>(
+    allow_whole_numbers(
+        command.add_option_function<std::uint64_t>(
             "--device-memory", [&options](const std::uint64_t& mebibytes) { options.memory = mebibytes << 20; },
-            "MiB of device memory to use at most")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30))
-        ->type_name("MiB");
+            "MiB of device memory to use at most"),
+        1, kMostMebibytes)
+        ->type_name("MIB");
     command.add_flag("--validation", options.validation, "Vulkan validation layers, with synchronization validation");
 }
 
@@ -43,7 +44,8 @@ void add_size(CLI::App& command, PictureSize& size) {
         .add_option_function<std::string>(
             "--size",
             [&size](const std::string& text) {
-                if (!parse_size(text, size)) throw CLI::ValidationError("--size", "not WIDTHxHEIGHT, each 1 to 8192");
+                if (parse_size(text, size)) return;
+                throw CLI::ValidationError("--size", refusal(text, "WIDTHxHEIGHT with both from 1 to 8192"));
             },
             "pixels, 1280x720 unless told")
         ->type_name("WxH");

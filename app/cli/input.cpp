@@ -3,10 +3,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <utility>
 
 #include "app/cli/command.h"
+#include "app/cli/values.h"
 #include "lacedring/file.hpp"
 #include "lacedring/mesh_files.hpp"
 
@@ -127,30 +127,28 @@ std::string shortened(const std::string& name) {
 
 void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes) {
     options.triangle_bytes = triangle_bytes;
-    CLI::Option* weld = command
-                            .add_flag("--weld{attributes}", options.weld,
-                                      "merge only vertices that are the same in all attributes; --weld=position, as "
-                                      "without it: join those at one position, whose attributes are kept as copies")
-                            ->check(CLI::IsMember({"attributes", "position"}))
-                            ->option_text("[=attributes|position]");
+    CLI::Option* weld = allow_words(
+        command.add_flag("--weld{attributes}", options.weld,
+                         "merge only vertices that are the same in all attributes; --weld=position, as without it: "
+                         "join those at one position, whose attributes are kept as copies"),
+        {"attributes", "position"});
+    weld->option_text("[=attributes|position]");
     CLI::Option* none = command.add_flag("--no-weld{none}", options.weld,
                                          "keep vertices at one position apart: a mesh cut at its seams");
     none->excludes(weld);
-    const CLI::Option* tolerance = command
-                                       .add_option("--weld-tolerance", options.tolerance,
-                                                   "join positions that are no farther apart, in the mesh's units")
-                                       ->check(CLI::PositiveNumber)
-                                       ->type_name("DISTANCE")
-                                       ->excludes(none);
+    const CLI::Option* tolerance =
+        allow_numbers_between(command.add_option("--weld-tolerance", options.tolerance,
+                                                 "join positions that are no farther apart, in the mesh's units"),
+                              0, kNoLimit)
+            ->type_name("DISTANCE")
+            ->excludes(none);
     command.parse_complete_callback([&options, tolerance] {
-        if (std::isnan(options.tolerance)) throw CLI::ValidationError("--weld-tolerance", "not a number");
         if (tolerance->count() == 0 || options.weld != "attributes") return;
         throw CLI::ValidationError("--weld-tolerance", "has no effect with --weld, which moves no vertex");
     });
-    std::set<std::string> formats;
-    for (const auto& [name, format] : kFormats) formats.insert(name);
-    command.add_option("--input-format", options.format, "of meshes whose format does not show")
-        ->check(CLI::IsMember(formats));
+    std::vector<std::string> formats;
+    for (const auto& [name, format] : kFormats) formats.emplace_back(name);
+    allow_words(command.add_option("--input-format", options.format, "of meshes whose format does not show"), formats);
     add_allow_outside(command, options);
     add_max_memory(command, options);
 }
@@ -160,11 +158,11 @@ void add_allow_outside(CLI::App& command, InputOptions& options) {
 }
 
 void add_max_memory(CLI::App& command, InputOptions& options) {
-    command
-        .add_option("--max-memory", options.max_memory,
-                    "what a mesh may take; unless told 512, or 128 times the file where that is more")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30))
-        ->type_name("MiB");
+    allow_whole_numbers(
+        command.add_option("--max-memory", options.max_memory,
+                           "what a mesh may take; unless told 512, or 128 times the file where that is more"),
+        1, kMostMebibytes)
+        ->type_name("MIB");
 }
 
 ReadOptions read_options(const InputOptions& options) {

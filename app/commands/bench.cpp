@@ -18,6 +18,7 @@
 #include "app/bench/vertices.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/progress.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 
 namespace lacedring::app {
@@ -280,11 +281,9 @@ void add_bench(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
     command->add_option("MESH", options->paths, "mesh files")->required();
     add_input_options(*command, options->input, 400);
-    command->add_option("--rounds", options->rounds, "how often each is run")
-        ->check(CLI::Range(1, 1000))
+    allow_whole_numbers(command->add_option("--rounds", options->rounds, "how often each is run"), 1, 1000)
         ->capture_default_str();
-    command->add_option("--seeds", options->seeds, "seed corners per component")
-        ->check(CLI::Range(1, 10000))
+    allow_whole_numbers(command->add_option("--seeds", options->seeds, "seed corners per component"), 1, 10000)
         ->capture_default_str();
     add_bits(*command, "--positions", options->positions, 1, kMostBenchPositions,
              "bits along the largest extent of the positions that are decoded");
@@ -294,19 +293,22 @@ void add_bench(CLI::App& program, Action& action) {
                                               "also time them with resident memory limited, on memory-mapped files");
     command->add_option("--scratch", options->limits.scratch, "folder for the memory-mapped files; else the system's")
         ->needs(resident);
-    command
-        ->add_option("--page", options->limits.page_kib,
-                     "KiB that are read at a time; 0: by the mesh's size, mostly 32")
-        ->check(CLI::IsMember(std::set<std::size_t>{0, 4, 8, 16, 32, 64, 128, 256, 512, 1024}))
+    allow_words(command->add_option("--page", options->limits.page_kib,
+                                    "KiB that are read at a time; 0: by the mesh's size, mostly 32"),
+                {"0", "4", "8", "16", "32", "64", "128", "256", "512", "1024"})
+        ->type_name("KIB")
         ->needs(resident);
-    command->add_option("--sample", options->limits.sample, "elements that a random-order visit takes")
-        ->check(CLI::Range(1, 100000000))
+    allow_whole_numbers(
+        command->add_option("--sample", options->limits.sample, "elements that a random-order visit takes"), 1,
+        100000000)
         ->capture_default_str()
         ->needs(resident);
-    command->add_option("--levels", options->limits.levels, "limits, as shares of the corner table's size, with commas")
+    allow_numbers(command->add_option("--levels", options->limits.levels,
+                                      "limits, as shares of the corner table's size, with commas"),
+                  0, 1000)
+        ->type_name("A,B,...")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::Range(0.0, 1000.0))
         ->needs(resident);
     options->gpu.add_options(*command);
     command->add_flag("--json", options->json, "one JSON document on standard output");

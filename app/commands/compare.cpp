@@ -19,6 +19,7 @@
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
 #include "app/cli/progress.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 #include "app/formats/scene_check.h"
 #include "renderer/vk/device_error.h"
@@ -270,15 +271,14 @@ void add_compare(CLI::App& program, Action& action) {
     add_threads(*command, {&options->input.options.threads});
     add_force(*command, options->diff);
     add_size(*command, options->size);
-    command
-        ->add_option("--path", options->paths, "compute, pull, geometry or mesh, with commas; all of them unless told")
-        ->delimiter(',')
-        ->check(CLI::IsMember(gpu::names_of(gpu::kPaths)));
-    command
-        ->add_option("--source", options->sources,
-                     "lean, packed or packed_vertices, with commas; all of them unless told")
-        ->delimiter(',')
-        ->check(CLI::IsMember(gpu::names_of(std::span(gpu::kSources).subspan(1))));
+    allow_words(command->add_option("--path", options->paths,
+                                    "compute, pull, geometry or mesh, with commas; all of them unless told"),
+                gpu::names_of(gpu::kPaths))
+        ->delimiter(',');
+    allow_words(command->add_option("--source", options->sources,
+                                    "lean, packed or packed_vertices, with commas; all of them unless told"),
+                gpu::names_of(std::span(gpu::kSources).subspan(1)))
+        ->delimiter(',');
     add_position_bits(*command, options->positions);
     command->add_option("--diff", options->diff.path, "write a picture of the differences, even if there are none")
         ->type_name("FILE.png");

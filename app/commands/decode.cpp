@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/cli/output.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 #include "lacedring/lr_file.hpp"
 #include "lacedring/mesh_files.hpp"
@@ -85,8 +86,8 @@ void add_decode(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("decode", "write an .lr file as .glb, .ply or .obj");
     command->add_option("IN.lr", options->inputs, ".lr files; - is standard input")->required();
     add_output(*command, options->output, "the mesh file; FOLDER/ for several, - for standard output");
-    command->add_option("--output-format", options->format, "with -o - and -o FOLDER/")
-        ->check(CLI::IsMember({"glb", "ply", "obj"}));
+    allow_words(command->add_option("--output-format", options->format, "with -o - and -o FOLDER/"),
+                {"glb", "ply", "obj"});
     command->add_flag("--original-order", options->original_order,
                       "vertices, triangles and their first corners in the order of the file that was encoded (with "
                       "--keep-order)");

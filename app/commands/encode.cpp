@@ -10,6 +10,7 @@
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
 #include "app/cli/print.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 #include "app/formats/whole_file.h"
 #include "lacedring/lacedring.hpp"
@@ -142,17 +143,16 @@ void add_encode(CLI::App& program, Action& action) {
     add_output(*command, options->output, "the .lr file; FOLDER/ for several, - for standard output");
     std::vector<std::string> formats;
     for (const Format format : kStreamFormats) formats.emplace_back(name_of(format));
-    command->add_option("--format", options->format, "stream format")
-        ->check(CLI::IsMember(formats))
-        ->capture_default_str();
-    command->add_option("--profile", options->profile, "of packed: the fewest bits, or an order for the vertex cache")
-        ->check(CLI::IsMember({"small", "cache"}))
+    allow_words(command->add_option("--format", options->format, "stream format"), formats)->capture_default_str();
+    allow_words(command->add_option("--profile", options->profile,
+                                    "of packed: the fewest bits, or an order for the vertex cache"),
+                {"small", "cache"})
         ->capture_default_str();
     add_input_options(*command, options->input, 200);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
-    command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9")
-        ->check(CLI::Range(0, 9))
+    allow_whole_numbers(
+        command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9"), 0, 9)
         ->capture_default_str();
     add_attribute_bits(*command, options->bits);
     command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "app/cli/output.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 #include "lacedring/mesh_files.hpp"
 
@@ -20,6 +21,8 @@ struct GenerateOptions {
     OutputOptions output;
     std::uint64_t triangles = 10000, seed = 1;
 };
+
+constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 30;  // of 2^29 vertices, each with six triangles around it
 
 int run_generate(const GenerateOptions& options, RunLog& log) {
     const std::string& output = options.output.path;
@@ -33,7 +36,7 @@ int run_generate(const GenerateOptions& options, RunLog& log) {
     if (const auto good = check_output(output, options.output, log, kExtensions); !good)
         return fail(output_name(output), good.error());
     const Result<Mesh> mesh = generate(options.kind, options.triangles, options.seed);
-    if (!mesh) return fail("generate", mesh.error());
+    if (!mesh) return fail(fmt::format("--triangles {}", options.triangles), mesh.error());
     const Result<void> written =
         standard ? write_mesh(*mesh, writable_format("x." + options.format), STDOUT_FILENO) : write_mesh(*mesh, output);
     if (!written) return fail(output_name(output), written.error());
@@ -46,16 +49,20 @@ int run_generate(const GenerateOptions& options, RunLog& log) {
 void add_generate(CLI::App& program, Action& action) {
     auto options = std::make_shared<GenerateOptions>();
     CLI::App* command = program.add_subcommand("generate", "procedural meshes of any size");
-    std::string kinds;
-    for (const GeneratorInfo& kind : generators()) kinds += fmt::format("\n  {:<9}{}", kind.name, kind.description);
-    command->footer("Kinds:" + kinds);
-    command->add_option("KIND", options->kind, "see below")->required();
+    std::string described;
+    std::vector<std::string> kinds;
+    for (const GeneratorInfo& kind : generators()) {
+        described += fmt::format("\n  {:<9}{}", kind.name, kind.description);
+        kinds.emplace_back(kind.name);
+    }
+    command->footer("Kinds:" + described);
+    allow_words(command->add_option("KIND", options->kind, "see below"), kinds)->required();
     add_output(*command, options->output, ".glb, .ply or .obj; - for standard output");
-    command->add_option("--output-format", options->format, "with -o -")->check(CLI::IsMember({"glb", "ply", "obj"}));
-    command->add_option("--triangles", options->triangles, "about how many")
-        ->check(refuse_negative)
+    allow_words(command->add_option("--output-format", options->format, "with -o -"), {"glb", "ply", "obj"});
+    allow_whole_numbers(command->add_option("--triangles", options->triangles, "about how many"), 1, kMostTriangles)
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "same seed, same file")->check(refuse_negative)->capture_default_str();
+    allow_whole_numbers(command->add_option("--seed", options->seed, "same seed, same file"), 0, UINT64_MAX)
+        ->capture_default_str();
     command->callback([options, &action] { action = [options](RunLog& log) { return run_generate(*options, log); }; });
 }
 

@@ -9,6 +9,7 @@
 #include "app/cli/option_rules.h"
 #include "app/cli/print.h"
 #include "app/cli/scene_output.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 #include "app/formats/whole_file.h"
 
@@ -119,10 +120,11 @@ void add_pack(CLI::App& program, Action& action) {
                       "streams that a GPU can draw from and that unpack several times as fast, not in storage form");
     command->add_flag("--fallback", options->pack.fallback,
                       "plain buffers beside the streams, for loaders that do not know the extension");
-    command
-        ->add_option("--document", options->document,
-                     "the JSON of a .glb: as it is, or deflated; unless told deflated where it is much of the file")
-        ->check(CLI::IsMember({"plain", "packed"}));
+    allow_words(
+        command->add_option("--document", options->document,
+                            "the JSON of a .glb: as it is, or deflated; unless told deflated where it is much of the "
+                            "file"),
+        {"plain", "packed"});
     command->add_flag("--json", options->json, "print a JSON document with the figures");
     add_allow_outside(*command, options->input);
     add_max_memory(*command, options->input);

@@ -11,6 +11,7 @@
 #include "app/cli/gpu_options.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 #include "renderer/draw/png.h"
 #include "renderer/draw/renderer.h"
@@ -161,26 +162,25 @@ void add_render(CLI::App& program, Action& action) {
     command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
     add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
     add_input_options(*command, options->input, 150);
-    command->add_option("--source", options->source, "what the triangles come from")
-        ->check(CLI::IsMember(gpu::names_of(gpu::kSources)))
+    allow_words(command->add_option("--source", options->source, "what the triangles come from"),
+                gpu::names_of(gpu::kSources))
         ->capture_default_str();
     add_position_bits(*command, options->positions);
-    command->add_option("--path", options->path, "how the device expands the source")
-        ->check(CLI::IsMember(gpu::names_of(gpu::kPaths)))
+    allow_words(command->add_option("--path", options->path, "how the device expands the source"),
+                gpu::names_of(gpu::kPaths))
         ->capture_default_str();
-    command->add_option("--view", options->view, "what is shown: material where the file has any, else smooth")
-        ->check(CLI::IsMember(gpu::names_of(gpu::kViews)));
-    command
-        ->add_option("--crease", options->crease,
-                     "degrees between triangles from which on --view silhouette draws their edge")
-        ->check(CLI::Range(0.0, 180.0))
+    allow_words(
+        command->add_option("--view", options->view, "what is shown: material where the file has any, else smooth"),
+        gpu::names_of(gpu::kViews));
+    allow_numbers(command->add_option("--crease", options->crease,
+                                      "degrees between triangles from which on --view silhouette draws their edge"),
+                  0, 180)
         ->capture_default_str();
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
     command->add_flag("--no-warts", options->no_warts, "no wart skipping: the classes as they are before it");
     add_size(*command, options->size);
-    command->add_option("--samples", options->samples, "samples a pixel along each side")
-        ->check(CLI::Range(1, 8))
+    allow_whole_numbers(command->add_option("--samples", options->samples, "samples a pixel along each side"), 1, 8)
         ->default_str(std::to_string(kSamples));
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);

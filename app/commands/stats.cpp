@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/option_rules.h"
+#include "app/cli/values.h"
 #include "app/commands/commands.h"
 #include "app/formats/whole_file.h"
 #include "app/report/lr_contents.h"
@@ -293,8 +294,9 @@ void add_stats(CLI::App& program, Action& action) {
         ->expected(1)
         ->delimiter(',')
         ->type_name("A,B,...");
-    command->add_option("--table", options->table, "what is printed; the others than sizes and total as Markdown")
-        ->check(CLI::IsMember({"sizes", "total", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"}))
+    allow_words(
+        command->add_option("--table", options->table, "what is printed; the others than sizes and total as Markdown"),
+        {"sizes", "total", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"})
         ->capture_default_str();
     command->add_flag("--json", options->json, "one JSON document on standard output");
     auto rules = std::make_shared<OptionRules>(*command);

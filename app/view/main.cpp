@@ -15,6 +15,7 @@
 #include "app/cli/command.h"
 #include "app/cli/gpu_options.h"
 #include "app/cli/option_rules.h"
+#include "app/cli/values.h"
 #include "app/view/script/script.h"
 #include "app/view/session/threads.h"
 #include "app/view/ui/viewer.h"
@@ -175,11 +176,12 @@ int start(int argc, char** argv, Threads& threads) {
     app::add_input_options(program, options.viewer.input.options, 250);
     options.viewer.input.options.materials = true;
     app::add_size(program, options.size);
-    program.add_option("--scale", options.scale, "pixels per nominal pixel of the panels; default: the display's")
-        ->check(CLI::Range(0.5, 8.0));
+    app::allow_numbers(
+        program.add_option("--scale", options.scale, "pixels per nominal pixel of the panels; default: the display's"),
+        0.5, 8);
     program.add_flag("--no-panels", options.no_panels, "no panels until Tab is pressed");
-    program.add_option("--fps", options.viewer.frame_cap, "most pictures per second; 0: no limit")
-        ->check(CLI::Range(0, 1000))
+    app::allow_whole_numbers(
+        program.add_option("--fps", options.viewer.frame_cap, "most pictures per second; 0: no limit"), 0, 1000)
         ->capture_default_str();
     auto* screenshot =
         program.add_option("--screenshot", options.screenshot, "write a PNG file when the mesh is ready, and exit")

@@ -256,11 +256,40 @@ class Usage(CliTest):
         self.assertEqual(self.json("info", "--json", "--weld", "attributes", mesh)["vertices"], 4)
         self.wrong("info", "--weld=nonsense", mesh)
 
-    def test_negative_numbers(self):
-        mesh = self.generate("blob", 300)
-        for arguments in (["generate", "blob", "--triangles", "-5"], ["generate", "blob", "--seed", "-1"],
-                          ["encode", mesh, "--random-seed", "-1"]):
-            self.fails(*arguments, "-o", self.path("x.ply"), mentions=[f"{arguments[-2]}: {arguments[-1]} is negative"], codes=(WRONG_USAGE,))
+    def test_numbers(self):
+        """A number that an option does not take: the message names the option, the value and what is allowed."""
+        whole, real = "a whole number from", "a number"
+        cases = [(["generate", "blob", "-o", "x.ply"], [("--triangles", "0", whole), ("--seed", None, whole)]),
+                 (["encode", "x.ply", "-o", "x.lr"],
+                  [("--k", "0", whole), ("--seeds", "1e6", whole), ("--random-seed", None, whole), ("--optimize", "1e6", whole),
+                   ("--effort", "10", whole), ("--threads", "0", whole), ("--positions", "23", whole), ("--normals", "1", whole),
+                   ("--max-memory", "0", whole), ("--weld-tolerance", "0", real + " above 0")]),
+                 (["bench", "x.ply", "--resident"],
+                  [("--rounds", "0", whole), ("--seeds", "0", whole), ("--sample", "1e9", whole), ("--page", "5", "0, 4, 8"),
+                   ("--levels", "1,1001", real + " from 0 to 1000")])]
+        if self.has_command("render"):
+            cases.append((["render", "x.ply", "-o", "x.png"],
+                          [("--samples", "9", whole), ("--crease", "181", real + " from 0 to 180"), ("--device-memory", "0", whole),
+                           ("--camera-zoom-factor", "0", real + " above 0"), ("--camera-view-angle", "179", real + " above 0 and below 179"),
+                           ("--size", "0x5", "WIDTHxHEIGHT"), ("--up", "W", "X, Y or Z"), ("--camera-position", "1,2", "three numbers")]))
+        for command, options in cases:
+            for option, outside, allowed in options:
+                for value in ("-5", outside, "1.5", "abc", "9" * 400, "0x10", "nan", "1e400"):
+                    if value is None or (value == "1.5" and allowed.startswith(real)):
+                        continue
+                    shown = value.split(",")[-1] if option == "--levels" else value
+                    shown = shown if len(shown) <= 40 else shown[:40] + "..."
+                    self.wrong(*command, f"{option}={value}", mentions=[f"{option}: '{shown}' is not {allowed}"])
+
+    def test_whole_numbers_with_an_exponent(self):
+        files = set()
+        for number in ("2500", "2.5e3", "25E2", "+2500", "250e+1", "02500"):
+            path = self.path(number + ".ply")
+            self.ok("generate", "blob", "-o", path, "--triangles", number)
+            with open(path, "rb") as file:
+                files.add(file.read())
+        self.assertEqual(len(files), 1)
+        self.wrong("generate", "sphere", "-o", "x.ply", "--triangles", "1073741824", mentions=["--triangles 1073741824: "])
 
     def test_options_without_effect(self):
         mesh, lr = self.generate("blob", 300), self.path("x.lr")
@@ -280,7 +309,7 @@ class Usage(CliTest):
         self.fails("decode", lr, "-o", self.path("y.ply"), "--output-format", "ply", codes=(WRONG_USAGE,))
 
     def test_no_exceptions_in_messages(self):
-        for arguments in (["generate", "blob", "-o", "x.ply", "--triangles", "1e6"], ["info", "--optimize"], ["stats"],
+        for arguments in (["generate", "blob", "-o", "x.ply", "--triangles", "1e-6"], ["info", "--optimize"], ["stats"],
                           ["encode", "x.ply"], ["encode", "x.ply", "-o", "y.lr", "--format", "leen"]):
             self.wrong(*arguments)
 
