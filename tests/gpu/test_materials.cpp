@@ -8,6 +8,7 @@
 #include "renderer/draw/png.h"
 #include "renderer/mesh/textures.h"
 #include "tests/gpu/gpu_test.h"
+#include "tests/support/capture.h"
 
 using namespace lacedring;
 using namespace lacedring::test;
@@ -227,7 +228,7 @@ TEST_CASE_FIXTURE(GpuTest, "materials: each property changes the picture") {
 
 TEST_CASE_FIXTURE(GpuTest, "materials: the same picture from every source by every path") {
     for (const auto& [name, flat] : {std::pair("materials.glb", false), std::pair("globe.glb", true)}) {
-        CAPTURE(name);
+        CAPTURE_COPY(name);
         DrawnMesh drawn = asset(name);
         for (Material& m : drawn.materials.materials) m.flat = flat;
         gpu::ModelOptions options{.packed = true, .vertices = VertexOptions{}, .surface = drawn.surface};
