@@ -48,7 +48,7 @@ Candidates construction(const Subject& subject) {
         if (const auto lr = make_lr(kHybridPeriod)) (void)build_compact_lr(lr->view());
     });
     out.add("squad", [split] { (void)build_squad(*split); });
-    // The optimiser alone, at its default, and from index list to packed stream with it.
+    // The optimizer alone, at its default, and from index list to packed stream with it.
     out.add("optimize", [&s] { (void)optimize_rings(s.table, s.rings, packed_optimization()); });
     out.add("packed_encode", [&s] { (void)encode_packed(s.table, s.rings); });
     out.add("packed_cache_encode", [&s] { (void)encode_packed(s.table, s.rings, PackedProfile::cache); });

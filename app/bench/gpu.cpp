@@ -22,7 +22,7 @@ Candidate candidate(std::string name, const Times& times) {
 Result<GpuFigures> measure_gpu(const LoadedMesh& mesh, const VertexOptions& vertices,
                                const gpu::ContextOptions& options, int rounds) {
     OptimizeOptions optimize;
-    optimize.progress = progress_bar("optimising the ring", optimize.passes);
+    optimize.progress = progress_bar("optimizing the ring", optimize.passes);
     const Result<gpu::Model> model = gpu::make_model(
         mesh.mesh, {.packed = true, .vertices = vertices, .optimize = std::move(optimize), .surface = mesh.surface});
     if (!model) return model.error();
@@ -70,7 +70,7 @@ GpuBench::GpuBench() : options_(std::make_unique<Options>()) {}
 GpuBench::~GpuBench() = default;
 
 void GpuBench::add_options(CLI::App& command) {
-    command.add_flag("--no-gpu", options_->off, "leave the device out");
+    command.add_flag("--no-gpu", options_->off, "measure nothing on the GPU");
     add_device_options(command, options_->context);
 }
 

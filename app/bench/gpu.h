@@ -45,7 +45,7 @@ class GpuBench {
     /// --no-gpu, and those of a device.
     void add_options(CLI::App& command);
 
-    /// With the streams that the program recommends, optimised. Nothing where there shall or can be no device: then
+    /// With the streams that the program recommends, optimized. Nothing where there shall or can be no device: then
     /// `skipped` says why. Errors: those of the renderer, and of a device that was asked for.
     Result<std::optional<GpuFigures>> measure(const LoadedMesh& mesh, const VertexOptions& vertices, int rounds,
                                               std::string& skipped) const;

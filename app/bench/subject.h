@@ -16,14 +16,14 @@ struct Subject {
     Mesh mesh;          ///< the surface: connectivity is its, the rivals' too; what is drawn has its copies
     CornerTable table;  ///< of the surface
     RingOptions ring;   ///< of these
-    Rings rings, optimised;
+    Rings rings, optimized;
     EncodedLean lean;
-    EncodedPacked packed, packed_cache;  ///< of the optimised rings
+    EncodedPacked packed, packed_cache;  ///< of the optimized rings
     LeanView lean_view;
     PackedView packed_view, packed_cache_view;
 };
 
-/// The options by which the packed stream's ring is optimised.
+/// The options by which the packed stream's ring is optimized.
 OptimizeOptions packed_optimization();
 
 /// Errors: build_corner_table's.

@@ -17,6 +17,7 @@
 
 namespace CLI {
 class App;
+class Option;
 }  // namespace CLI
 
 namespace lacedring::app {
@@ -35,7 +36,7 @@ struct RingChoice {
     std::uint64_t random_seed = 1;
     std::uint32_t effort = EncodeOptions{}.effort;  ///< what is not said below is decided by it (encode)
     std::uint32_t threads = 0;                      ///< at most; 0: all of the machine
-    std::string optimize = "auto";  ///< passes of the optimiser: a number, or as many as optimize_rings recommends
+    std::string optimize = "auto";  ///< passes of the optimizer: a number, or as many as optimize_rings recommends
 };
 void add_ring_options(CLI::App& command, RingChoice& choice);
 /// For a format that is best with the ring-expander. With --ring hybrid, --k auto means the paper's median, 100.
@@ -47,16 +48,18 @@ std::vector<std::uint32_t> ring_periods(const RingChoice& choice, std::size_t tr
 /// All of it for one format and a mesh of that size.
 EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_t triangles);
 
-/// How rings are to be optimised for a format whose ring costs what `cost` says. Not at all where --ring or --k says
+/// How rings are to be optimized for a format whose ring costs what `cost` says. Not at all where --ring or --k says
 /// which ring it is to be, unless --optimize does.
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost);
 
-/// An option of bits to which an attribute is quantized; 0 unless given.
-void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
-              const char* what);
+/// An option of bits to which an attribute is quantized. Its help says that the default is lossless, which is 0.
+CLI::Option* add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
+                      const char* what);
 void add_position_bits(CLI::App& command, std::uint32_t& bits);
 /// Lossless for 0 bits. `threads`: as asked for.
 VertexOptions position_options(std::uint32_t bits, std::uint32_t threads = 0);
+
+void add_json(CLI::App& command, bool& json);
 
 /// --threads, for all of these: threads at most, 0 for all of the machine.
 void add_threads(CLI::App& command, const std::vector<std::uint32_t*>& asked);

@@ -28,7 +28,7 @@ struct MeasuredFormat {
     std::vector<std::uint32_t> order = {};
     const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null for a format without one
     std::uint32_t k = 0;         ///< of the hybrid
-    std::uint32_t passes = 0;    ///< of the optimiser
+    std::uint32_t passes = 0;    ///< of the optimizer
     std::size_t copies = 0;      ///< of non-manifold vertices: entries of `order` beyond the mesh's vertices
     std::size_t seam_bytes = 0;  ///< of the seam section, beside `bytes`
     std::size_t deflated = 0;    ///< bytes after zlib, of a format that is for transmission; else 0

@@ -150,7 +150,7 @@ std::string offset_histograms(const MeshReport& mesh) {
         "<h3>Offsets along the ring</h3>\n<p class=\"note\">How far each triangle’s tip lies from its ring edge, along "
         "the ring, in rings grown with three periods k (section 6.1 and Figure 8 of the paper; LR tables, standard, "
         "not "
-        "optimised). ";
+        "optimized). ";
     if (mesh.periods.empty() || mesh.triangles == 0) {
         return out + fmt::format("Absent: {}.</p>\n", escape_html(mesh.no_periods));
     }

@@ -20,7 +20,7 @@ std::string bit_bars(const MeshReport& mesh, const BitScale& scale);
 /// Section 6.1 and Figure 8 of the paper: a histogram a period, and the table of their numbers.
 std::string offset_histograms(const MeshReport& mesh);
 
-/// "ours", "paper", "baseline": the class that gives a format its colour.
+/// "ours", "paper", "baseline": the class that gives a format its color.
 const char* class_of(Origin origin);
 
 }  // namespace lacedring::app

@@ -22,7 +22,7 @@ struct FormatFigures {
     double references = 0;     ///< a triangle; 0 where it has none
     double share = 0;          ///< percent of index_u32's bytes
     CacheFigures cache;
-    std::string ring;  ///< what made its ring, and passes of the optimiser; empty for a format without one
+    std::string ring;  ///< what made its ring, and passes of the optimizer; empty for a format without one
 };
 
 struct ReportPicture {

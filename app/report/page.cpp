@@ -75,7 +75,7 @@ std::string pictures(const MeshReport& mesh, const std::string& title) {
     static constexpr Text kTexts[] = {
         {"smooth", "The mesh", "the mesh, smoothly shaded", "Interpolated normals."},
         {"class", "The ring and its triangles",
-         "triangles coloured by what they are to the ring, the ring as a black line",
+         "triangles colored by what they are to the ring, the ring as a black line",
          "The ring (black) and the triangles: "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#ead8ae\"></span>T1 left,</span> "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#d97c28\"></span>T1 right,</span> "
@@ -83,9 +83,9 @@ std::string pictures(const MeshReport& mesh, const std::string& title) {
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#35609f\"></span>T2,</span> "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#b02530\"></span>a wart’s T0,</span> "
          "<span class=\"legend\"><span class=\"swatch\" style=\"background:#7c7c7c\"></span>its T2.</span>"},
-        {"ring", "Order along the ring", "vertices coloured by their place along the ring, the ring as a black line",
+        {"ring", "Order along the ring", "vertices colored by their place along the ring, the ring as a black line",
          "Vertices by their place: <span class=\"legend\">first <span class=\"ramp\"></span> last;</span> "
-         "<span class=\"legend\">grey: on no ring.</span>"},
+         "<span class=\"legend\">gray: on no ring.</span>"},
     };
     std::string out = "<div class=\"pictures\">\n";
     for (const ReportPicture& picture : mesh.pictures) {
@@ -132,7 +132,7 @@ std::string table_of_sizes(const MeshReport& mesh, const std::string& title) {
                "input. ACMR and ATVR: vertices transformed per triangle and per vertex, in the format’s order, "
                "with a FIFO cache of 32.{} "
                "Deflated: where the format is for transmission. Ring: how it was grown, and passes of the "
-               "optimiser.</p>\n",
+               "optimizer.</p>\n",
                mesh.best_order ? fmt::format(" meshoptimizer’s best order for the vertex cache: ACMR {}, ATVR {}.",
                                              fixed(mesh.best_order->acmr, 3), fixed(mesh.best_order->atvr, 3))
                                : "");
