@@ -12,6 +12,7 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/command.h"
+#include "app/cli/help.h"
 #include "app/commands/commands.h"
 
 namespace {
@@ -33,11 +34,14 @@ int finish(int code) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App program("LacedRing: triangle meshes in about one and a half bits a triangle, usable as they are");
+    CLI::App program("make triangle meshes small, and use them while they are small");
     program.name("lacedring");
-    program.set_version_flag("-V,--version", LACEDRING_VERSION);
+    lacedring::app::format_help(program);
+    program.set_version_flag("-V,--version", LACEDRING_VERSION, "show the version");
     program.require_subcommand(1);
-    program.footer("lacedring COMMAND --help lists a command's options.");
+    program.footer(
+        "lacedring COMMAND --help lists the options of a command.\n"
+        "Example: lacedring encode bunny.ply -o bunny.lr\nMore in docs/command-line.md");
     lacedring::app::Action action;
     lacedring::app::add_commands(program, action);
     std::vector<std::string> words = lacedring::app::arguments(argc, argv);

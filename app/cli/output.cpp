@@ -35,12 +35,12 @@ Error refused(std::string why) {
 }  // namespace
 
 void add_output(CLI::App& command, OutputOptions& options, const std::string& what) {
-    command.add_option("-o,--output", options.path, what)->required();
+    command.add_option("-o,--output", options.path, what)->type_name("FILE")->required();
     add_force(command, options);
 }
 
 void add_force(CLI::App& command, OutputOptions& options) {
-    command.add_flag("--force", options.force, "write over an input, or under another kind's extension");
+    command.add_flag("--force", options.force, "write over an input, or under the extension of another format");
 }
 
 std::string output_name(const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/cli/help.h"
 #include "app/cli/output.h"
 #include "app/cli/values.h"
 #include "app/commands/commands.h"
@@ -83,16 +84,16 @@ int run_decode(const DecodeOptions& options, RunLog& log) {
 
 void add_decode(CLI::App& program, Action& action) {
     auto options = std::make_shared<DecodeOptions>();
-    CLI::App* command = program.add_subcommand("decode", "write an .lr file as .glb, .ply or .obj");
+    CLI::App* command = program.add_subcommand("decode", "write the mesh of an .lr file as .glb, .ply or .obj");
     command->add_option("IN.lr", options->inputs, ".lr files; - is standard input")->required();
-    add_output(*command, options->output, "the mesh file; FOLDER/ for several, - for standard output");
-    allow_words(command->add_option("--output-format", options->format, "with -o - and -o FOLDER/"),
+    add_output(*command, options->output, "mesh file to write; FOLDER/ for several inputs; - is standard output");
+    allow_words(command->add_option("--output-format", options->format, "write {}; goes with -o - and -o FOLDER/"),
                 {"glb", "ply", "obj"});
     command->add_flag("--original-order", options->original_order,
-                      "vertices, triangles and their first corners in the order of the file that was encoded (with "
-                      "--keep-order)");
+                      "restore the order before encoding (needs encode --keep-order)");
     add_max_memory(*command, options->input);
     add_threads(*command, {&options->input.threads});
+    add_example(*command, "decode bunny.lr -o bunny.glb", "command-line.md");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_decode(*options, log); }; });
 }
 

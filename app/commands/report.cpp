@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
 #include "app/commands/commands.h"
@@ -107,9 +108,10 @@ int run_report(ReportOptions& options, RunLog& log) {
 
 void add_report(CLI::App& program, Action& action) {
     auto options = std::make_shared<ReportOptions>();
-    CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
-    command->add_option("MESH", options->paths, "mesh files")->required();
-    add_output(*command, options->output, "the HTML file; - for standard output");
+    CLI::App* command =
+        program.add_subcommand("report", "write figures, charts and pictures of meshes as one HTML page");
+    command->add_option("MESH", options->paths, "mesh files or .lr files; - is standard input")->required();
+    add_output(*command, options->output, ".html file to write; - is standard output");
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
@@ -119,6 +121,7 @@ void add_report(CLI::App& program, Action& action) {
                        "--camera-elevation-angle", "--camera-zoom-factor", "--camera-view-angle", "--device",
                        "--device-memory", "--validation"},
                       "--no-gpu");
+    add_example(*command, "report bunny.ply kitten.glb -o meshes.html", "command-line.md");
     command->callback([options, rules, &action, command] {
         rules->check();
         options->command = command_line(*command);
