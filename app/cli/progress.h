@@ -8,6 +8,9 @@
 
 namespace lacedring::app {
 
+/// No bar appears from now on (--quiet). To be called before the work begins.
+void hide_progress();
+
 /// A bar that appears when the work takes longer than a moment, and is gone when this is. Nothing where standard error
 /// is no terminal. Not thread-safe.
 class ProgressBar {
