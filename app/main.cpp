@@ -13,6 +13,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/command.h"
 #include "app/cli/help.h"
+#include "app/cli/progress.h"
 #include "app/commands/commands.h"
 
 namespace {
@@ -44,6 +45,11 @@ int run(int argc, char** argv) {
         "Example: lacedring encode bunny.ply -o bunny.lr\nMore in docs/command-line.md");
     lacedring::app::Action action;
     lacedring::app::add_commands(program, action);
+    bool quiet = false;
+    for (CLI::App* command : program.get_subcommands({})) {
+        if (command->get_name() == "view") continue;  // which prints errors alone
+        command->add_flag("-q,--quiet", quiet, "print no notes and no progress, only errors");
+    }
     std::vector<std::string> words = lacedring::app::arguments(argc, argv);
     if (const std::string wrong = lacedring::app::check_command(program, words); !wrong.empty()) {
         lacedring::app::say("lacedring: {} (lacedring --help lists the commands)\n", wrong);
@@ -63,7 +69,8 @@ int run(int argc, char** argv) {
         lacedring::app::print("{}", out.str());
         return finish(lacedring::app::done);
     }
-    lacedring::app::RunLog log;
+    if (quiet) lacedring::app::hide_progress();
+    lacedring::app::RunLog log(quiet);
     const int code = action(log);
     if (code == lacedring::app::done || code == lacedring::app::check_failed) log.flush();
     return finish(code);

@@ -65,6 +65,11 @@ Result<void> write_output(const fs::path& path, std::span<const std::span<const 
     return path == "-" ? write_descriptor(STDOUT_FILENO, parts) : write_file(path, parts);
 }
 
+std::string written_text(const Mesh& mesh, std::uint64_t bytes) {
+    return fmt::format("{}, {} vertices, {} bytes", count_text(mesh.triangle_count(), "triangle"), mesh.vertex_count,
+                       bytes);
+}
+
 Result<std::vector<fs::path>> output_paths(const std::vector<std::string>& inputs, const OutputOptions& options,
                                            std::string_view extension) {
     std::error_code error;

@@ -31,9 +31,10 @@ MeshFormat output_format(const DecodeOptions& options, const fs::path& path) {
     return writable_format(options.format.empty() ? path : fs::path("x." + options.format));
 }
 
-Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::path& path, WriteNotes& notes) {
-    if (path == "-") return write_mesh(mesh, output_format(options, path), STDOUT_FILENO, &notes);
-    return write_mesh(mesh, path, &notes);
+Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::path& path, WriteNotes& notes,
+                   std::uint64_t& bytes) {
+    if (path == "-") return write_mesh(mesh, output_format(options, path), STDOUT_FILENO, &notes, &bytes);
+    return write_mesh(mesh, path, &notes, &bytes);
 }
 
 /// Whether the mesh has joints, which refer to a scene's skin.
@@ -54,13 +55,15 @@ int decode(const DecodeOptions& options, const std::string& input, const fs::pat
     const Result<Mesh> mesh = options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));
     if (!mesh) return fail(input, mesh.error());
     WriteNotes notes;
-    if (const Result<void> written = write(*mesh, options, output, notes); !written) {
+    std::uint64_t written_bytes = 0;
+    if (const Result<void> written = write(*mesh, options, output, notes, written_bytes); !written) {
         return fail(output_name(output), written.error());
     }
     for (const std::string& note : notes) log.note(output_name(output), note);
     if (output_format(options, output) == MeshFormat::gltf && has_skin(*mesh)) {
         log.note(output_name(output), "joints without the skin of their scene (lacedring pack keeps scenes)");
     }
+    log.wrote(output_name(output), written_text(*mesh, written_bytes));
     return done;
 }
 

@@ -117,14 +117,17 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
         return 8 * static_cast<double>(size) / static_cast<double>(of);
     };
     const std::string errors = errors_of(whole->attributes);
-    log.flush();
-    say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
-        "per triangle{}; {}{}\n",
-        output_name(output), triangles, bytes.size(), bits(bytes.size(), triangles),
-        bits(bytes.size(), file.vertex_count), connectivity.bytes, bits(connectivity.bytes, triangles),
-        connectivity.seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(connectivity.seams, triangles)),
-        errors.empty() ? "lossless" : "largest error: " + errors,
-        stores ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
+    log.wrote(output_name(output),
+              fmt::format("{}, {}, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, "
+                          "{:.2f} bits per triangle{}; {}{}",
+                          count_text(triangles, "triangle"), vertices_text(file.vertex_count, mesh.vertex_count),
+                          bytes.size(), bits(bytes.size(), triangles), bits(bytes.size(), file.vertex_count),
+                          connectivity.bytes, bits(connectivity.bytes, triangles),
+                          connectivity.seams == 0
+                              ? ""
+                              : fmt::format(", {:.2f} of them for seams", bits(connectivity.seams, triangles)),
+                          errors.empty() ? "lossless" : "largest error: " + errors,
+                          stores ? fmt::format("; resident {} bytes", whole->bytes.size()) : ""));
     return done;
 }
 

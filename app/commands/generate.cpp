@@ -38,10 +38,12 @@ int run_generate(const GenerateOptions& options, RunLog& log) {
         return fail(output_name(output), good.error());
     const Result<Mesh> mesh = generate(options.kind, options.triangles, options.seed);
     if (!mesh) return fail(fmt::format("--triangles {}", options.triangles), mesh.error());
+    std::uint64_t bytes = 0;
     const Result<void> written =
-        standard ? write_mesh(*mesh, writable_format("x." + options.format), STDOUT_FILENO) : write_mesh(*mesh, output);
+        standard ? write_mesh(*mesh, writable_format("x." + options.format), STDOUT_FILENO, nullptr, &bytes)
+                 : write_mesh(*mesh, output, nullptr, &bytes);
     if (!written) return fail(output_name(output), written.error());
-    say("{}: {} triangles, {} vertices\n", output_name(output), mesh->triangle_count(), mesh->vertex_count);
+    log.wrote(output_name(output), written_text(*mesh, bytes));
     return done;
 }
 

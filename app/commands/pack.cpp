@@ -83,15 +83,13 @@ int pack_file(const PackCommand& options, const std::string& input, const std::f
         log.note(input_name(input), "primitives not compressed: " + listed(report.not_compressed));
     }
     note_images(*scene, input, output, log);
-    if (options.json) {
-        print_json(report_json(input_name(input), report, before, *written));
-        return done;
-    }
+    if (options.json) print_json(report_json(input_name(input), report, before, *written));
     const std::string errors = errors_of(report.max_error);
-    log.flush();
-    say("{}: {} primitives, {} triangles: {} bytes, before {}; geometry {} bytes, before {}; {}\n", output_name(path),
-        report.primitives, report.triangles, *written, before, report.geometry_after, report.geometry_before,
-        errors.empty() ? "lossless" : "largest error: " + errors);
+    log.wrote(output_name(path),
+              fmt::format("{}, {}, {} bytes, before {} bytes; geometry {} bytes, before {} bytes; {}",
+                          count_text(report.primitives, "primitive"), count_text(report.triangles, "triangle"),
+                          *written, before, report.geometry_after, report.geometry_before,
+                          errors.empty() ? "lossless" : "largest error: " + errors));
     return done;
 }
 

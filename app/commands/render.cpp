@@ -99,7 +99,8 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
         const gpu::Path path = gpu::find_named(gpu::kPaths, options.path).value_or(gpu::Path::compute);
         device_bytes = context->arena().used() + renderer->device_bytes(*model, source, path);
         if (device_bytes > kWorthSaying) {
-            say("lacedring: drawing takes {:.1f} GB of device memory\n", static_cast<double>(device_bytes) / 1e9);
+            log.note(input_name(input),
+                     fmt::format("drawing takes {:.1f} GB of device memory", static_cast<double>(device_bytes) / 1e9));
         }
         Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
         if (!drawable) return drawable.error();
@@ -136,13 +137,11 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
                                       {"device_bytes", device_bytes},
                                       {"validation_messages", messages}};
         print_json(out);
-    } else {
-        const std::string line =
-            fmt::format("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", output_name(output),
-                        options.size.width, options.size.height, model->triangle_count(), options.source, view_name,
-                        100 * share, context->info().name);
-        output == "-" ? say("{}", line) : print("{}", line);
     }
+    log.wrote(output_name(output),
+              fmt::format("{}x{} pixels, {} bytes; {}, {} {}, covers {:.1f} % of the picture; {}", options.size.width,
+                          options.size.height, png->size(), count_text(model->triangle_count(), "triangle"),
+                          options.source, view_name, 100 * share, context->info().name));
     return messages == 0 ? done : check_failed;
 }
 

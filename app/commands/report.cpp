@@ -32,7 +32,7 @@ std::string command_line(const CLI::App& command) {
     std::string out = "lacedring " + command.get_name(), positional;
     bool dashes = false;  // a file name begins with a dash
     for (const CLI::Option* option : command.get_options()) {
-        if (option->count() == 0) continue;
+        if (option->count() == 0 || option->get_name() == "--quiet") continue;  // the page is the same
         const bool flag = option->get_items_expected_max() == 0;
         for (const std::string& value : option->results()) {
             const bool dash = value.starts_with('-');
@@ -97,10 +97,10 @@ int run_report(ReportOptions& options, RunLog& log) {
     if (const Result<void> written = write_output(options.output.path, std::span(&part, 1)); !written) {
         return fail(output_name(options.output.path), written.error());
     }
-    const std::string line = fmt::format("{}: {}, {} bytes; {}\n", output_name(options.output.path),
-                                         counted(meshes.size(), "mesh", "meshes"), text.size(),
-                                         skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
-    options.output.path == "-" ? say("{}", line) : print("{}", line);
+    log.wrote(output_name(options.output.path),
+              fmt::format("{}, {} bytes; {}", counted(meshes.size(), "mesh", "meshes"), text.size(),
+                          skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped));
+    log.flush();
     return exit == done && messages != 0 ? check_failed : exit;
 }
 

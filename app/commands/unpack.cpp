@@ -34,9 +34,9 @@ int unpack_file(const UnpackCommand& options, const std::string& input, const st
     const auto written = write_scene(*scene, output);
     if (!written) return fail(output_name(path), written.error());
     note_images(*scene, input, output, log);
-    log.flush();
-    say("{}: {} primitives, {} triangles: {} bytes, packed {}\n", output_name(path), report.primitives,
-        report.triangles, *written, input_bytes(bytes->size(), report.read));
+    log.wrote(output_name(path),
+              fmt::format("{}, {}, {} bytes; packed {} bytes", count_text(report.primitives, "primitive"),
+                          count_text(report.triangles, "triangle"), *written, input_bytes(bytes->size(), report.read)));
     return done;
 }
 
