@@ -142,7 +142,7 @@ class GpuOptions(CliTest):
         report = self.json("render", mesh, "-o", out, "--size", "8000x8", "--json")
         self.assertIn(report["samples"], (4, 9))
         # A report counts the pictures that cannot be drawn.
-        said = self.ok("report", self.generate("torus", 200), "-o", self.path("x.html"), "--device-memory", "1").out
+        said = self.ok("report", self.generate("torus", 200), "-o", self.path("x.html"), "--device-memory", "1").err
         self.assertIn("no pictures: ", said)
 
     def test_packed_vertices(self):
@@ -203,7 +203,7 @@ class GpuOptions(CliTest):
 
     def test_progress_is_printed_on_terminals_only(self):
         mesh = self.generate("blob", 2000)
-        for arguments in (("compare", mesh, "--size", "160x120", "--source", "lean,packed"), ("bench", mesh, "--rounds", "1", "--operators")):
+        for arguments in (("compare", mesh, "--size", "160x120", "--source", "lean,packed"), ("bench", mesh, "--rounds", "20", "--operators")):
             code, out, said = on_a_terminal(*arguments)
             self.assertEqual(code, DONE, said)
             self.assertIn("[", said, arguments)

@@ -311,7 +311,7 @@ class Report(CliTest):
         out, alone = self.path("some.html"), self.path("alone.html")
         result = run("report", bad, good, self.path("missing.ply"), "--no-gpu", "-o", out)
         self.assertEqual(result.code, BAD_INPUT)
-        self.assertEqual(len(result.err.splitlines()), 2, result)
+        self.assertEqual(len(result.err.splitlines()), 3, result)  # a line for each bad file, and one for the page
         with open(out, encoding="utf-8") as file:
             left_out = re.findall("Not in it: <code><bdi>([^<]*)</bdi></code> .([^)]*)", file.read())
         self.assertEqual(left_out, [(bad, "line 4: the header has no end_header"),
