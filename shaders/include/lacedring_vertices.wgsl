@@ -28,8 +28,8 @@ struct LrVertexLayout {
   bits: u32,        // octahedral: bits per integer
   exceptions: u32,  // number of exceptions, which follow the parameters, two words each
   field_bits: u32,
-  table: u32,  // first word of it
-  data: u32,   // first word of it
+  table: u32,  // first word of the table of groups
+  data: u32,   // first word of the blocks
 }
 
 fn lr_vertex_exceptions() -> u32 { return LR_VERTEX_HEADER_WORDS + 2u * LR_VERTEX_COMPONENTS; }

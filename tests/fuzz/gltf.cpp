@@ -42,7 +42,7 @@ std::string encode_base64(const Bytes& bytes) {
 void mutate_buffer(Bytes& buffer, std::size_t max_size, Random& random) {
     const std::size_t size = buffer.size();
     mutate_bytes(buffer, max_size);
-    if (random_below(random, 4) != 0) buffer.resize(size);  // mostly the length in the JSON
+    if (random_below(random, 4) != 0) buffer.resize(size);  // usually keep the length that the JSON gives
 }
 
 void mutate_json(Bytes& json, std::size_t max_size, Random& random) {

@@ -44,7 +44,7 @@ Shape subdivide(const Shape& shape);
 Shape stack_all(const Shape& shape);
 /// Adds a vertex in the middle of a random triangle, `count` times.
 Shape stack_random(Shape shape, std::uint32_t count, std::uint64_t seed);
-/// Adds `count` vertices, each in a triangle at the one before.
+/// Adds `count` vertices, each in a triangle at the previous vertex.
 Shape stack_spiral(Shape shape, std::uint32_t count);
 /// Both shapes, not connected.
 Shape beside(const Shape& a, const Shape& b);

@@ -91,7 +91,7 @@ std::optional<Doubles> find_doubles(const CornerTable& table) {
 
 void add_doubles(EncodedPacked& stream, const Doubles& doubles) {
     const auto own = static_cast<std::uint32_t>(stream.triangle_order.size());
-    std::vector<std::uint32_t> place;  // place in the stream of each mesh triangle that is no double
+    std::vector<std::uint32_t> place;  // index in the stream of each mesh triangle that is not a double
     for (std::uint32_t i = 0; i < own; ++i) {
         std::uint32_t& t = stream.triangle_order[i];
         t = doubles.triangle[t];

@@ -102,7 +102,7 @@ class CornerCopies {
     /// Both views must be valid, and their words must outlive the object. `seams` belongs to the slots of `stream`.
     CornerCopies(const StreamView& stream, const SeamView& seams);
 
-    /// The copy at vertex `place` (0, 1 or 2) of decode_triangle(stream, slot); UINT32_MAX if the slot is empty.
+    /// The copy at vertex number `place` (0, 1 or 2) of decode_triangle(stream, slot); UINT32_MAX if the slot is empty.
     std::uint32_t copy(std::uint32_t slot, std::uint32_t place);
 
     /// For LR tables: the copy at a corner of Operators on the stream; UINT32_MAX if the corner has no triangle. The
