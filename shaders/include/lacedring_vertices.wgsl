@@ -178,7 +178,7 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
     }
     low_at += taken;
     if (n == 3u && axis < 3u) {
-      const x = min(0u, n - 1u);  // also compiled, without effect, for one or two components
+      const x = min(0u, n - 1u);  // compiled for one and two components, too, where it has no effect
       const y = min(1u, n - 1u);
       const z = min(2u, n - 1u);
       let u = select(select(residual[x], residual[z], axis == 1u), residual[y], axis == 0u);

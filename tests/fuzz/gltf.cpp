@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::string_view kMarker = ";base64,";
 
-/// Decodes up to the first character that is no base64 digit; sets `end` to its position.
+/// Decodes up to the first character that is not a base64 digit; sets `end` to its position.
 Bytes decode_base64(std::string_view text, std::size_t& end) {
     Bytes out;
     std::uint32_t bits = 0, held = 0;

@@ -507,7 +507,8 @@ LACEDRING_HOT_ void lacedring_open_edge_(struct lacedring_steps_* w, uint32_t a,
     w->open[w->open_count++] = b;
 }
 
-/* Decodes the third vertex of a step that is no turn, and opens the edges it enters. The vertex may be out of range. */
+/* Decodes the third vertex of a step that is not a turn, and opens the edges it enters. The vertex may be out of range.
+ */
 static uint32_t lacedring_fork_(struct lacedring_steps_* w, uint32_t a, uint32_t b) {
     struct lacedring_coded* d = &w->coded;
     const uint32_t kind = lacedring_coded_symbol_(d, &w->fork), enters = kind & 3;

@@ -120,8 +120,8 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
 
     const Store& store() const { return s_; }
 
-    /// The vertex that v is a copy of, or v itself if it is no copy. A non-manifold vertex has a copy for each further
-    /// fan of triangles; all other operators treat copies as separate vertices. O(log copies).
+    /// The vertex that v is a copy of, or v itself if it is not a copy. A non-manifold vertex has a copy for each
+    /// further fan of triangles; all other operators treat copies as separate vertices. O(log copies).
     VertexId original(VertexId v) const {
         return VertexId{LrStreamView<Store>{.view = {}, .copies = copies_}.original(v.value)};
     }

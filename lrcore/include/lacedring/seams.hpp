@@ -51,8 +51,8 @@ struct SeamView {
 Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t triangles, std::uint32_t vertices);
 
 /// Checks everything that decoders rely on, including the checksum, for `triangles` (three vertices each). Cost: O(T)
-/// time; 4 bytes per vertex and 4 per copy that is no home. Errors: malformed. Untrusted input, including triangles:
-/// safe.
+/// time; 4 bytes per vertex and 4 per copy that is not a home copy. Errors: malformed. Untrusted input, including
+/// triangles: safe.
 Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
                                 std::uint32_t vertices);
 
