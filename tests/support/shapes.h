@@ -46,7 +46,7 @@ Shape stack_all(const Shape& shape);
 Shape stack_random(Shape shape, std::uint32_t count, std::uint64_t seed);
 /// Adds `count` vertices, each in a triangle at the previous vertex.
 Shape stack_spiral(Shape shape, std::uint32_t count);
-/// Both shapes, not connected.
+/// The union of both shapes, without a common vertex.
 Shape beside(const Shape& a, const Shape& b);
 /// Replaces vertex `from` by `to`, which pinches the surface. `from` is then unused.
 Shape pinch(Shape shape, std::uint32_t from, std::uint32_t to);

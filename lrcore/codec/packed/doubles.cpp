@@ -68,7 +68,8 @@ std::optional<Doubles> find_doubles(const CornerTable& table) {
             out.doubles.push_back({order[i], order[first], static_cast<std::uint32_t>(i - first), turned});
         }
     }
-    // Not more doubles than other triangles, so that a stream's size bounds the size of its decoded triangles.
+    // A stream has at most as many doubles as other triangles, so that a stream's size bounds the size of its decoded
+    // triangles.
     out.doubles.resize(
         std::min<std::size_t>(out.doubles.size(), (table.triangle_count() - table.topology.degenerate) / 2));
     if (out.doubles.size() < kFewest) return {};
