@@ -12,6 +12,8 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/command.h"
+#include "app/cli/help.h"
+#include "app/cli/progress.h"
 #include "app/commands/commands.h"
 
 namespace {
@@ -33,13 +35,21 @@ int finish(int code) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App program("LacedRing: triangle meshes in about one and a half bits a triangle, usable as they are");
+    CLI::App program("make triangle meshes small, and use them while they are small");
     program.name("lacedring");
-    program.set_version_flag("-V,--version", LACEDRING_VERSION);
+    lacedring::app::format_help(program);
+    program.set_version_flag("-V,--version", LACEDRING_VERSION, "show the version");
     program.require_subcommand(1);
-    program.footer("lacedring COMMAND --help lists a command's options.");
+    program.footer(
+        "lacedring COMMAND --help lists the options of a command.\n"
+        "Example: lacedring encode bunny.ply -o bunny.lr\nMore in docs/command-line.md");
     lacedring::app::Action action;
     lacedring::app::add_commands(program, action);
+    bool quiet = false;
+    for (CLI::App* command : program.get_subcommands({})) {
+        if (command->get_name() == "view") continue;  // which prints errors alone
+        command->add_flag("-q,--quiet", quiet, "print no notes and no progress, only errors");
+    }
     std::vector<std::string> words = lacedring::app::arguments(argc, argv);
     if (const std::string wrong = lacedring::app::check_command(program, words); !wrong.empty()) {
         lacedring::app::say("lacedring: {} (lacedring --help lists the commands)\n", wrong);
@@ -59,7 +69,8 @@ int run(int argc, char** argv) {
         lacedring::app::print("{}", out.str());
         return finish(lacedring::app::done);
     }
-    lacedring::app::RunLog log;
+    if (quiet) lacedring::app::hide_progress();
+    lacedring::app::RunLog log(quiet);
     const int code = action(log);
     if (code == lacedring::app::done || code == lacedring::app::check_failed) log.flush();
     return finish(code);

@@ -70,7 +70,7 @@ GpuBench::GpuBench() : options_(std::make_unique<Options>()) {}
 GpuBench::~GpuBench() = default;
 
 void GpuBench::add_options(CLI::App& command) {
-    command.add_flag("--no-gpu", options_->off, "leave the device out");
+    command.add_flag("--no-gpu", options_->off, "measure nothing on the GPU");
     add_device_options(command, options_->context);
 }
 

@@ -22,11 +22,11 @@ Result<Subject> make_subject(LoadedMesh loaded, std::uint32_t seeds) {
     out.rings = expand_rings(out.table, out.ring);
     OptimizeOptions optimize = packed_optimization();
     optimize.progress = progress_bar("optimizing the ring", optimize.passes);
-    out.optimised = optimize_rings(out.table, out.rings, optimize);
+    out.optimized = optimize_rings(out.table, out.rings, optimize);
     Result<EncodedLean> lean = encode_lean(out.table, out.rings);
     if (!lean) return lean.error();
-    Result<EncodedPacked> packed = encode_packed(out.table, out.optimised),
-                          cache = encode_packed(out.table, out.optimised, PackedProfile::cache);
+    Result<EncodedPacked> packed = encode_packed(out.table, out.optimized),
+                          cache = encode_packed(out.table, out.optimized, PackedProfile::cache);
     if (!packed || !cache) return packed ? cache.error() : packed.error();
     out.lean = std::move(*lean);
     out.packed = std::move(*packed);

@@ -17,9 +17,9 @@ struct Subject {
     Mesh mesh;
     CornerTable table;  ///< of the surface
     RingOptions ring;   ///< options of `rings`
-    Rings rings, optimised;
+    Rings rings, optimized;
     EncodedLean lean;                    ///< of `rings`
-    EncodedPacked packed, packed_cache;  ///< of `optimised`
+    EncodedPacked packed, packed_cache;  ///< of `optimized`
     LeanView lean_view;
     PackedView packed_view, packed_cache_view;
 };

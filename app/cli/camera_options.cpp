@@ -6,6 +6,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "app/cli/help.h"
 #include "app/cli/values.h"
 
 namespace lacedring::app {
@@ -57,24 +58,30 @@ void add_vector(CLI::App& command, const char* name, const char* allowed, const 
 }  // namespace
 
 void add_camera(CLI::App& command, gpu::CameraOptions& camera) {
+    const OptionGroup group(command, "Camera");
     add_vector(command, "--up", "X, Y or Z with + or - before it, or three numbers X,Y,Z",
-               "direction that is up in the picture, +Y unless told", parse_up,
+               "direction that is up: +X, -X, +Y, -Y, +Z, -Z or X,Y,Z (default +Y)", parse_up,
                [&camera](const Vector& v) { camera.up = v; });
-    add_vector(command, "--camera-position", "three numbers X,Y,Z", "where the eye is, in the mesh's coordinates",
-               parse_vector, [&camera](const Vector& v) { camera.position = v; });
-    add_vector(command, "--camera-focal-point", "three numbers X,Y,Z", "what the eye looks at", parse_vector,
+    add_vector(command, "--camera-position", "three numbers X,Y,Z",
+               "where the camera is; default: three quarters, all in view", parse_vector,
+               [&camera](const Vector& v) { camera.position = v; });
+    add_vector(command, "--camera-focal-point", "three numbers X,Y,Z",
+               "where the camera looks; default: the middle of the mesh", parse_vector,
                [&camera](const Vector& v) { camera.focal_point = v; });
     const auto add = [&](const char* name, double& value, const char* help) {
         return command.add_option(name, value, help)->capture_default_str();
     };
-    allow_numbers(add("--camera-azimuth-angle", camera.azimuth, "degrees the eye is moved to its right, around"),
-                  -kNoLimit, kNoLimit);
-    allow_numbers(add("--camera-elevation-angle", camera.elevation, "degrees the eye is then moved up, around"),
-                  -kNoLimit, kNoLimit);
-    allow_numbers_between(add("--camera-zoom-factor", camera.zoom, "how many times nearer the eye is then"), 0,
-                          kNoLimit);
+    allow_numbers(
+        add("--camera-azimuth-angle", camera.azimuth, "move the camera to its right, ANGLE degrees around that point"),
+        -kNoLimit, kNoLimit)
+        ->type_name("ANGLE");
+    allow_numbers(add("--camera-elevation-angle", camera.elevation, "then move it up, ANGLE degrees around that point"),
+                  -kNoLimit, kNoLimit)
+        ->type_name("ANGLE");
+    allow_numbers_between(add("--camera-zoom-factor", camera.zoom, "then divide its distance by F"), 0, kNoLimit);
     allow_numbers_between(
-        add("--camera-view-angle", camera.view_angle, "degrees seen along the picture's shorter side"), 0, 179);
+        add("--camera-view-angle", camera.view_angle, "degrees seen along the picture's shorter side"), 0, 179)
+        ->type_name("ANGLE");
 }
 
 Result<gpu::CameraOptions> parse_camera(std::vector<std::string> words) {

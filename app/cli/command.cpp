@@ -11,6 +11,7 @@
 #include <system_error>
 #include <thread>
 
+#include "app/cli/help.h"
 #include "app/cli/progress.h"
 #include "app/cli/values.h"
 #include "lacedring/lacedring.hpp"
@@ -19,19 +20,19 @@
 namespace lacedring::app {
 
 void add_ring_options(CLI::App& command, RingChoice& choice) {
+    const OptionGroup group(command, "Ring");
     const auto add = [&](const char* name, auto& value, const char* help) {
         return command.add_option(name, value, help)->capture_default_str();
     };
-    allow_words(add("--ring", choice.ring, "ring construction for every format, not for each the one it is best with"),
+    allow_words(add("--ring", choice.ring, "construct all rings as {}; default: the best for each format"),
                 {"expander", "hybrid"});
-    allow_whole_numbers(add("--k", choice.k, "period of the hybrid, or auto: several are tried and the smallest kept"),
-                        1, UINT32_MAX, "auto");
-    allow_whole_numbers(add("--seeds", choice.seeds, "seed corners tried per component; 0: by the mesh's size"), 0,
+    allow_whole_numbers(add("--k", choice.k, "period of hybrid rings; auto tries several and keeps the best"), 1,
+                        UINT32_MAX, "auto");
+    allow_whole_numbers(add("--seeds", choice.seeds, "start corners to try per component; 0: by the mesh's size"), 0,
                         100000);
-    allow_whole_numbers(add("--random-seed", choice.random_seed, "for the choice of seed corners"), 0, UINT64_MAX);
-    allow_whole_numbers(
-        add("--optimize", choice.optimize, "passes of the ring optimiser: a number, 0 for none, or auto"), 0, 100000,
-        "auto");
+    allow_whole_numbers(add("--random-seed", choice.random_seed, "seed of the random choice of start corners"), 0,
+                        UINT64_MAX);
+    allow_whole_numbers(add("--optimize", choice.optimize, "passes of the ring optimizer; 0: none"), 0, 100000, "auto");
 }
 
 namespace {
@@ -79,7 +80,7 @@ OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost)
         options.passes = 0;
     }
     options.threads = thread_count(choice.threads);
-    options.progress = progress_bar("optimising the ring", options.passes);
+    options.progress = progress_bar("optimizing the ring", options.passes);
     return options;
 }
 
@@ -95,7 +96,7 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
     if (choice.optimize != "auto" || given) {
         options.passes = optimize.passes;
     } else {
-        optimize.progress = progress_bar("optimising the ring", passes_at(choice.effort, format));
+        optimize.progress = progress_bar("optimizing the ring", passes_at(choice.effort, format));
     }
     options.progress = optimize.progress;
     if (compact && given) options.periods = ring_periods(choice, triangles);
@@ -103,24 +104,28 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
     return options;
 }
 
-void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
-              const char* what) {
-    allow_whole_numbers(command.add_option(name, bits, what), least, most)->type_name("BITS")->default_str("");
+CLI::Option* add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
+                      const char* what) {
+    return allow_whole_numbers(command.add_option(name, bits, what), least, most)
+        ->type_name("BITS")
+        ->default_str("lossless");
 }
 
 void add_position_bits(CLI::App& command, std::uint32_t& bits) {
-    add_bits(command, "--positions", bits, 1, 22, "quantize positions: bits along the largest extent");
+    add_bits(command, "--positions", bits, 1, 22, "round positions to {} bits along the largest extent");
+}
+
+void add_json(CLI::App& command, bool& json) {
+    command.add_flag("--json", json, "print one JSON document on standard output");
 }
 
 void add_threads(CLI::App& command, const std::vector<std::uint32_t*>& asked) {
     const auto set = [asked](std::uint32_t threads) {
         for (std::uint32_t* one : asked) *one = threads;
     };
-    allow_whole_numbers(
-        command.add_option_function<std::uint32_t>(
-            "--threads", set,
-            "run on at most so many threads; unless told on all of the machine. The result is the same for any"),
-        1, 1024);
+    allow_whole_numbers(command.add_option_function<std::uint32_t>(
+                            "--threads", set, "use at most N threads, for the same result; default: all"),
+                        1, 1024);
 }
 
 unsigned thread_count(std::uint32_t asked) {

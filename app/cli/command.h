@@ -17,6 +17,7 @@
 
 namespace CLI {
 class App;
+class Option;
 }  // namespace CLI
 
 namespace lacedring::app {
@@ -53,12 +54,15 @@ EncodeOptions encode_options(const RingChoice& choice, Format format, std::size_
 /// and --optimize is not given.
 OptimizeOptions optimize_options(const RingChoice& choice, const RingCost& cost);
 
-/// Adds an option for the bits to which an attribute is quantized.
-void add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
-              const char* what);
+/// Adds an option for the bits to which an attribute is quantized. Its help says that the default, 0, is lossless.
+CLI::Option* add_bits(CLI::App& command, const char* name, std::uint32_t& bits, std::uint32_t least, std::uint32_t most,
+                      const char* what);
 void add_position_bits(CLI::App& command, std::uint32_t& bits);
 /// Options for encoding positions; 0 bits: lossless. `threads`: 0 for all of the machine.
 VertexOptions position_options(std::uint32_t bits, std::uint32_t threads = 0);
+
+/// Adds --json.
+void add_json(CLI::App& command, bool& json);
 
 /// Adds --threads, which sets all of `asked`.
 void add_threads(CLI::App& command, const std::vector<std::uint32_t*>& asked);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "app/cli/help.h"
 #include "app/cli/print.h"
 #include "app/cli/values.h"
 
@@ -24,15 +25,16 @@ bool parse_size(const std::string& text, PictureSize& size) {
 }  // namespace
 
 void add_device_options(CLI::App& command, gpu::ContextOptions& options) {
-    command.add_option("--device", options.device, "part of the name of the Vulkan device to use, or of its driver")
+    const OptionGroup group(command, "Vulkan device");
+    command.add_option("--device", options.device, "use the device whose name, or whose driver's name, contains NAME")
         ->type_name("NAME");
     allow_whole_numbers(
         command.add_option_function<std::uint64_t>(
             "--device-memory", [&options](const std::uint64_t& mebibytes) { options.memory = mebibytes << 20; },
-            "MiB of device memory to use at most"),
+            "use at most this much device memory"),
         1, kMostMebibytes)
         ->type_name("MIB");
-    command.add_flag("--validation", options.validation, "Vulkan validation layers, with synchronization validation");
+    command.add_flag("--validation", options.validation, "run with Vulkan's validation layers");
 }
 
 bool asks_for_device(const gpu::ContextOptions& options) {
@@ -47,8 +49,9 @@ void add_size(CLI::App& command, PictureSize& size) {
                 if (parse_size(text, size)) return;
                 throw CLI::ValidationError("--size", refusal(text, "WIDTHxHEIGHT with both from 1 to 8192"));
             },
-            "pixels, 1280x720 unless told")
-        ->type_name("WxH");
+            "width and height in pixels")
+        ->type_name("WxH")
+        ->default_str(fmt::format("{}x{}", size.width, size.height));
 }
 
 std::size_t print_validation(gpu::Context& context) {

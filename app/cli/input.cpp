@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/cli/command.h"
+#include "app/cli/help.h"
 #include "app/cli/values.h"
 #include "lacedring/file.hpp"
 #include "lacedring/mesh_files.hpp"
@@ -126,19 +127,18 @@ std::string shortened(const std::string& name) {
 }  // namespace
 
 void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t triangle_bytes) {
+    const OptionGroup group(command, "Reading meshes");
     options.triangle_bytes = triangle_bytes;
-    CLI::Option* weld = allow_words(
-        command.add_flag("--weld{attributes}", options.weld,
-                         "merge only vertices that are the same in all attributes; --weld=position, as without it: "
-                         "join those at one position, whose attributes are kept as copies"),
-        {"attributes", "position"});
+    CLI::Option* weld = allow_words(command.add_flag("--weld{attributes}", options.weld,
+                                                     "join vertices only where all attributes are equal; position, the "
+                                                     "default, joins all vertices at one place"),
+                                    {"attributes", "position"});
     weld->option_text("[=attributes|position]");
-    CLI::Option* none = command.add_flag("--no-weld{none}", options.weld,
-                                         "keep vertices at one position apart: a mesh cut at its seams");
+    CLI::Option* none = command.add_flag("--no-weld{none}", options.weld, "join no vertices");
     none->excludes(weld);
     const CLI::Option* tolerance =
         allow_numbers_between(command.add_option("--weld-tolerance", options.tolerance,
-                                                 "join positions that are no farther apart, in the mesh's units"),
+                                                 "join vertices that are at most this far apart, in the mesh's units"),
                               0, kNoLimit)
             ->type_name("DISTANCE")
             ->excludes(none);
@@ -148,20 +148,19 @@ void add_input_options(CLI::App& command, InputOptions& options, std::uint32_t t
     });
     std::vector<std::string> formats;
     for (const auto& [name, format] : kFormats) formats.emplace_back(name);
-    allow_words(command.add_option("--input-format", options.format, "of meshes whose format does not show"), formats);
+    allow_words(command.add_option("--input-format", options.format, "read the input as {}"), formats);
     add_allow_outside(command, options);
     add_max_memory(command, options);
 }
 
 void add_allow_outside(CLI::App& command, InputOptions& options) {
-    command.add_flag("--allow-outside", options.allow_outside, "a glTF may name files outside its folder");
+    command.add_flag("--allow-outside", options.allow_outside, "let a glTF name files outside its folder");
 }
 
 void add_max_memory(CLI::App& command, InputOptions& options) {
-    allow_whole_numbers(
-        command.add_option("--max-memory", options.max_memory,
-                           "what a mesh may take; unless told 512, or 128 times the file where that is more"),
-        1, kMostMebibytes)
+    allow_whole_numbers(command.add_option("--max-memory", options.max_memory,
+                                           "memory for a mesh; default: 512, or 128 times the file if larger"),
+                        1, kMostMebibytes)
         ->type_name("MIB");
 }
 

@@ -35,12 +35,12 @@ Error refused(std::string why) {
 }  // namespace
 
 void add_output(CLI::App& command, OutputOptions& options, const std::string& what) {
-    command.add_option("-o,--output", options.path, what)->required();
+    command.add_option("-o,--output", options.path, what)->type_name("FILE")->required();
     add_force(command, options);
 }
 
 void add_force(CLI::App& command, OutputOptions& options) {
-    command.add_flag("--force", options.force, "write over an input, or under another kind's extension");
+    command.add_flag("--force", options.force, "write over an input, or under the extension of another format");
 }
 
 std::string output_name(const fs::path& path) {
@@ -63,6 +63,11 @@ Result<void> check_output(const fs::path& path, const OutputOptions& options, co
 
 Result<void> write_output(const fs::path& path, std::span<const std::span<const std::byte>> parts) {
     return path == "-" ? write_descriptor(STDOUT_FILENO, parts) : write_file(path, parts);
+}
+
+std::string written_text(const Mesh& mesh, std::uint64_t bytes) {
+    return fmt::format("{}, {} vertices, {} bytes", count_text(mesh.triangle_count(), "triangle"), mesh.vertex_count,
+                       bytes);
 }
 
 Result<std::vector<fs::path>> output_paths(const std::vector<std::string>& inputs, const OutputOptions& options,

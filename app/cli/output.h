@@ -9,6 +9,7 @@
 
 #include "app/cli/run_log.h"
 #include "lacedring/base.hpp"
+#include "lacedring/mesh.hpp"
 
 namespace CLI {
 class App;
@@ -35,6 +36,9 @@ Result<void> check_output(const std::filesystem::path& path, const OutputOptions
 
 /// Writes `parts` one after the other to the path, or to standard output for "-". Errors: cannot_write.
 Result<void> write_output(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
+
+/// "12 triangles, 8 vertices, 345 bytes"
+std::string written_text(const Mesh& mesh, std::uint64_t bytes);
 
 /// Output paths, one per input: options.path for a single input, else FOLDER/STEM + `extension`; creates FOLDER.
 /// Errors: invalid_argument (several inputs and no folder, or two equal outputs), cannot_write (FOLDER).

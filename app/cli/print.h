@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <iterator>
 #include <string>
@@ -35,6 +36,11 @@ inline std::string printable(std::string text, char instead = '?') {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = instead;
     }
     return text;
+}
+
+/// "1 triangle", "12 triangles"
+inline std::string count_text(std::uint64_t count, const std::string& thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 /// "12 vertices", or with seams "12 vertices, 15 copies".

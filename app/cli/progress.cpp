@@ -16,10 +16,20 @@ namespace {
 constexpr std::uint64_t kWidth = 40;
 constexpr std::chrono::milliseconds kMoment{500};  // before the bar appears
 
+bool progress_hidden = false;
+
+bool shows_progress() {
+    return !progress_hidden && isatty(STDERR_FILENO) != 0;
+}
+
 }  // namespace
 
+void hide_progress() {
+    progress_hidden = true;
+}
+
 ProgressBar::ProgressBar(std::string what, std::uint64_t total)
-    : what_(std::move(what)), total_(std::max<std::uint64_t>(1, total)), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : what_(std::move(what)), total_(std::max<std::uint64_t>(1, total)), terminal_(shows_progress()) {}
 
 ProgressBar::~ProgressBar() {
     if (!shown_) return;
@@ -37,7 +47,7 @@ void ProgressBar::show(std::uint64_t done) {
 }
 
 std::function<bool(std::uint32_t)> progress_bar(const char* what, std::uint32_t total) {
-    if (isatty(STDERR_FILENO) == 0) return {};
+    if (!shows_progress()) return {};
     const auto bar = std::make_shared<std::optional<ProgressBar>>(std::in_place, what, total);
     return [=](std::uint32_t done) {
         if (!*bar) bar->emplace(what, total);  // the work begins again

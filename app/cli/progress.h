@@ -8,6 +8,9 @@
 
 namespace lacedring::app {
 
+/// Turns all bars off (--quiet). Call it before the work begins.
+void hide_progress();
+
 /// A bar that appears after 0.5 s of work and is erased by the destructor. Prints nothing if standard error is not a
 /// terminal. Not thread-safe.
 class ProgressBar {

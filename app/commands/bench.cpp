@@ -16,6 +16,7 @@
 #include "app/bench/section.h"
 #include "app/bench/unpack.h"
 #include "app/bench/vertices.h"
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/progress.h"
 #include "app/cli/values.h"
@@ -278,42 +279,46 @@ int run_bench(const BenchOptions& options, RunLog& log) {
 
 void add_bench(CLI::App& program, Action& action) {
     auto options = std::make_shared<BenchOptions>();
-    CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside rivals");
-    command->add_option("MESH", options->paths, "mesh files")->required();
+    CLI::App* command = program.add_subcommand("bench", "time construction, decoding and drawing beside other codecs");
+    command->add_option("MESH", options->paths, "mesh files or .lr files; - is standard input")->required();
     add_input_options(*command, options->input, 400);
-    allow_whole_numbers(command->add_option("--rounds", options->rounds, "how often each is run"), 1, 1000)
+    allow_whole_numbers(command->add_option("--rounds", options->rounds, "measure everything N times"), 1, 1000)
         ->capture_default_str();
-    allow_whole_numbers(command->add_option("--seeds", options->seeds, "seed corners per component"), 1, 10000)
+    allow_whole_numbers(command->add_option("--seeds", options->seeds, "start corners to try per component"), 1, 10000)
         ->capture_default_str();
     add_bits(*command, "--positions", options->positions, 1, kMostBenchPositions,
-             "bits along the largest extent of the positions that are decoded");
+             "round positions to {} bits along the largest extent")
+        ->capture_default_str();
     command->add_flag("--operators", options->operators,
-                      "also time the corner operators on LR and on what it is compared with");
-    CLI::Option* resident = command->add_flag("--resident", options->resident,
-                                              "also time them with resident memory limited, on memory-mapped files");
-    command->add_option("--scratch", options->limits.scratch, "folder for the memory-mapped files; else the system's")
+                      "also time the corner operators of LR and of other structures");
+    CLI::Option* resident =
+        command->add_flag("--resident", options->resident, "also time them on mapped files with limited memory");
+    command
+        ->add_option("--scratch", options->limits.scratch,
+                     "folder of the mapped files; default: the system's temporary folder")
+        ->type_name("FOLDER")
         ->needs(resident);
     allow_words(command->add_option("--page", options->limits.page_kib,
-                                    "KiB that are read at a time; 0: by the mesh's size, mostly 32"),
+                                    "read this much at a time, a power of two; 0: by the mesh's size"),
                 {"0", "4", "8", "16", "32", "64", "128", "256", "512", "1024"})
         ->type_name("KIB")
         ->needs(resident);
-    allow_whole_numbers(
-        command->add_option("--sample", options->limits.sample, "elements that a random-order visit takes"), 1,
-        100000000)
+    allow_whole_numbers(command->add_option("--sample", options->limits.sample, "visit N elements in random order"), 1,
+                        100000000)
         ->capture_default_str()
         ->needs(resident);
-    allow_numbers(command->add_option("--levels", options->limits.levels,
-                                      "limits, as shares of the corner table's size, with commas"),
-                  0, 1000)
+    allow_numbers(
+        command->add_option("--levels", options->limits.levels, "memory limits, as shares of the corner table's size"),
+        0, 1000)
         ->type_name("A,B,...")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->needs(resident);
     options->gpu.add_options(*command);
-    command->add_flag("--json", options->json, "one JSON document on standard output");
+    add_json(*command, options->json);
     auto rules = std::make_shared<OptionRules>(*command);
     rules->never_with({"--device", "--device-memory", "--validation"}, "--no-gpu");
+    add_example(*command, "bench bunny.ply --rounds 3", "results.md");
     command->callback([options, rules, &action] {
         rules->check();
         action = [options](RunLog& log) { return run_bench(*options, log); };

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/cli/gpu_options.h"
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
 #include "app/cli/progress.h"
@@ -265,28 +266,27 @@ int run_compare(const CompareOptions& options, RunLog& log) {
 void add_compare(CLI::App& program, Action& action) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App* command =
-        program.add_subcommand("compare", "draw a mesh plain and from its streams, and compare the pixels");
-    command->add_option("MESH", options->input.path, "mesh file")->required();
+        program.add_subcommand("compare", "draw a mesh from its indices and from its streams, and compare the pixels");
+    command->add_option("MESH", options->input.path, "mesh file or .lr file; - is standard input")->required();
     add_input_options(*command, options->input.options, 250);
     add_threads(*command, {&options->input.options.threads});
     add_force(*command, options->diff);
     add_size(*command, options->size);
-    allow_words(command->add_option("--path", options->paths,
-                                    "compute, pull, geometry or mesh, with commas; all of them unless told"),
+    allow_words(command->add_option("--path", options->paths, "compare only {} (several: A,B)"),
                 gpu::names_of(gpu::kPaths))
         ->delimiter(',');
-    allow_words(command->add_option("--source", options->sources,
-                                    "lean, packed or packed_vertices, with commas; all of them unless told"),
+    allow_words(command->add_option("--source", options->sources, "compare only {} (several: A,B)"),
                 gpu::names_of(std::span(gpu::kSources).subspan(1)))
         ->delimiter(',');
     add_position_bits(*command, options->positions);
-    command->add_option("--diff", options->diff.path, "write a picture of the differences, even if there are none")
+    command->add_option("--diff", options->diff.path, "write a picture of the differences even if there are none")
         ->type_name("FILE.png");
     add_device_options(*command, options->context);
-    command->add_flag("--json", options->json, "one JSON document on standard output");
+    add_json(*command, options->json);
     auto rules = std::make_shared<OptionRules>(*command);
     rules->only_with({"--positions"}, "--source packed_vertices",
                      [options] { return options->compares("packed_vertices"); });
+    add_example(*command, "compare bunny.ply", "renderer.md");
     command->callback([options, rules, &action] {
         rules->check();
         action = [options](RunLog& log) { return run_compare(*options, log); };

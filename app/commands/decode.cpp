@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/cli/help.h"
 #include "app/cli/output.h"
 #include "app/cli/values.h"
 #include "app/commands/commands.h"
@@ -30,9 +31,10 @@ MeshFormat output_format(const DecodeOptions& options, const fs::path& path) {
     return writable_format(options.format.empty() ? path : fs::path("x." + options.format));
 }
 
-Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::path& path, WriteNotes& notes) {
-    if (path == "-") return write_mesh(mesh, output_format(options, path), STDOUT_FILENO, &notes);
-    return write_mesh(mesh, path, &notes);
+Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::path& path, WriteNotes& notes,
+                   std::uint64_t& bytes) {
+    if (path == "-") return write_mesh(mesh, output_format(options, path), STDOUT_FILENO, &notes, &bytes);
+    return write_mesh(mesh, path, &notes, &bytes);
 }
 
 /// Whether the mesh has joints, which refer to a scene's skin.
@@ -53,13 +55,15 @@ int decode(const DecodeOptions& options, const std::string& input, const fs::pat
     const Result<Mesh> mesh = options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));
     if (!mesh) return fail(input, mesh.error());
     WriteNotes notes;
-    if (const Result<void> written = write(*mesh, options, output, notes); !written) {
+    std::uint64_t written_bytes = 0;
+    if (const Result<void> written = write(*mesh, options, output, notes, written_bytes); !written) {
         return fail(output_name(output), written.error());
     }
     for (const std::string& note : notes) log.note(output_name(output), note);
     if (output_format(options, output) == MeshFormat::gltf && has_skin(*mesh)) {
         log.note(output_name(output), "joints without the skin of their scene (lacedring pack keeps scenes)");
     }
+    log.wrote(output_name(output), written_text(*mesh, written_bytes));
     return done;
 }
 
@@ -83,16 +87,16 @@ int run_decode(const DecodeOptions& options, RunLog& log) {
 
 void add_decode(CLI::App& program, Action& action) {
     auto options = std::make_shared<DecodeOptions>();
-    CLI::App* command = program.add_subcommand("decode", "write an .lr file as .glb, .ply or .obj");
+    CLI::App* command = program.add_subcommand("decode", "write the mesh of an .lr file as .glb, .ply or .obj");
     command->add_option("IN.lr", options->inputs, ".lr files; - is standard input")->required();
-    add_output(*command, options->output, "the mesh file; FOLDER/ for several, - for standard output");
-    allow_words(command->add_option("--output-format", options->format, "with -o - and -o FOLDER/"),
+    add_output(*command, options->output, "mesh file to write; FOLDER/ for several inputs; - is standard output");
+    allow_words(command->add_option("--output-format", options->format, "write {}; goes with -o - and -o FOLDER/"),
                 {"glb", "ply", "obj"});
     command->add_flag("--original-order", options->original_order,
-                      "vertices, triangles and their first corners in the order of the file that was encoded (with "
-                      "--keep-order)");
+                      "restore the order before encoding (needs encode --keep-order)");
     add_max_memory(*command, options->input);
     add_threads(*command, {&options->input.threads});
+    add_example(*command, "decode bunny.lr -o bunny.glb", "command-line.md");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_decode(*options, log); }; });
 }
 

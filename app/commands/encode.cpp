@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
 #include "app/cli/print.h"
@@ -116,14 +117,17 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
         return 8 * static_cast<double>(size) / static_cast<double>(of);
     };
     const std::string errors = errors_of(whole->attributes);
-    log.flush();
-    say("{}: {} triangles, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, {:.2f} bits "
-        "per triangle{}; {}{}\n",
-        output_name(output), triangles, bytes.size(), bits(bytes.size(), triangles),
-        bits(bytes.size(), file.vertex_count), connectivity.bytes, bits(connectivity.bytes, triangles),
-        connectivity.seams == 0 ? "" : fmt::format(", {:.2f} of them for seams", bits(connectivity.seams, triangles)),
-        errors.empty() ? "lossless" : "largest error: " + errors,
-        stores ? fmt::format("; resident {} bytes", whole->bytes.size()) : "");
+    log.wrote(output_name(output),
+              fmt::format("{}, {}, {} bytes: {:.2f} bits per triangle, {:.2f} per vertex; connectivity {} bytes, "
+                          "{:.2f} bits per triangle{}; {}{}",
+                          count_text(triangles, "triangle"), vertices_text(file.vertex_count, mesh.vertex_count),
+                          bytes.size(), bits(bytes.size(), triangles), bits(bytes.size(), file.vertex_count),
+                          connectivity.bytes, bits(connectivity.bytes, triangles),
+                          connectivity.seams == 0
+                              ? ""
+                              : fmt::format(", {:.2f} of them for seams", bits(connectivity.seams, triangles)),
+                          errors.empty() ? "lossless" : "largest error: " + errors,
+                          stores ? fmt::format("; resident {} bytes", whole->bytes.size()) : ""));
     return done;
 }
 
@@ -138,35 +142,33 @@ int run_encode(const EncodeCommand& options, RunLog& log) {
 
 void add_encode(CLI::App& program, Action& action) {
     auto options = std::make_shared<EncodeCommand>();
-    CLI::App* command = program.add_subcommand("encode", "write a mesh as an .lr file");
-    command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
-    add_output(*command, options->output, "the .lr file; FOLDER/ for several, - for standard output");
+    CLI::App* command = program.add_subcommand("encode", "compress a mesh into an .lr file");
+    command->add_option("MESH", options->inputs, "mesh files or .lr files; - is standard input")->required();
+    add_output(*command, options->output, ".lr file to write; FOLDER/ for several inputs; - is standard output");
     std::vector<std::string> formats;
     for (const Format format : kStreamFormats) formats.emplace_back(name_of(format));
-    allow_words(command->add_option("--format", options->format, "stream format"), formats)->capture_default_str();
+    allow_words(command->add_option("--format", options->format, "store the mesh as {}"), formats)
+        ->capture_default_str();
     allow_words(command->add_option("--profile", options->profile,
-                                    "of packed: the fewest bits, or an order for the vertex cache"),
+                                    "order of packed: small (fewest bits) or cache (GPU's vertex cache)"),
                 {"small", "cache"})
         ->capture_default_str();
     add_input_options(*command, options->input, 200);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
-    allow_whole_numbers(
-        command->add_option("--effort", options->ring.effort, "how long to look for good rings: 0 to 9"), 0, 9)
+    allow_whole_numbers(command->add_option("--effort", options->ring.effort,
+                                            "time to spend on a good ring, from 0 (fast) to 9 (small files)"),
+                        0, 9)
         ->capture_default_str();
     add_attribute_bits(*command, options->bits);
-    command->add_flag("--no-warts", options->no_warts, "no wart skipping (lean and lr)");
+    command->add_flag("--no-warts", options->no_warts, "leave out wart skipping (lean and lr)");
     command->add_flag("--keep-order", options->keep_order,
-                      "store the vertex and triangle permutations, for decode --original-order");
-    CLI::Option* storage = command->add_flag(
-        "--storage", options->storage,
-        "streams in storage form: smaller, and unpacked when the file is read; the default of packed");
-    command
-        ->add_flag("--resident", options->resident,
-                   "streams that a program reads in place, in a mapped file above all; the only way of lean and lr")
+                      "store the order of vertices and triangles, for decode --original-order");
+    CLI::Option* storage = command->add_flag("--storage", options->storage,
+                                             "store smaller streams, which readers restore (packed only; its default)");
+    command->add_flag("--resident", options->resident, "store streams for use in place, in a mapped file")
         ->excludes(storage);
-    command->add_flag("--orient", options->orient,
-                      "turn triangles round so that neighbors agree, instead of keeping each as it is");
+    command->add_flag("--orient", options->orient, "reverse triangles where neighbors disagree on the orientation");
     auto rules = std::make_shared<OptionRules>(*command);
     const auto is = [options](Format format) { return options->is(format); };
     rules->only_with({"--profile"}, "--format packed", [is] { return is(Format::packed); });
@@ -182,6 +184,7 @@ void add_encode(CLI::App& program, Action& action) {
                 ((options->ring.seeds == 0 && options->ring.effort > 0) ||
                  (options->ring.optimize == "auto" ? options->ring.effort > 0 : options->ring.optimize != "0")));
     });
+    add_example(*command, "encode bunny.ply -o bunny.lr --positions 14", "choosing.md and docs/command-line.md");
     command->callback([options, rules, &action] {
         rules->check();
         options->input.keep_vertices = options->keep_order;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/cli/help.h"
 #include "app/commands/commands.h"
 #include "app/report/lr_contents.h"
 #include "app/report/scene_tables.h"
@@ -154,11 +155,12 @@ int run_info(const InfoOptions& options, RunLog& log) {
 void add_info(CLI::App& program, Action& action) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
-        program.add_subcommand("info", "topology report; the primitives of a scene, the sections of an .lr file");
-    command->add_option("MESH", options->input.path, "mesh file")->required();
+        program.add_subcommand("info", "describe a mesh: its topology, a scene's primitives, an .lr file's sections");
+    command->add_option("MESH", options->input.path, "mesh file or .lr file; - is standard input")->required();
     add_input_options(*command, options->input.options, 130);
     add_threads(*command, {&options->input.options.threads});
-    command->add_flag("--json", options->json, "one JSON document on standard output");
+    add_json(*command, options->json);
+    add_example(*command, "info bunny.ply", "command-line.md");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_info(*options, log); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/print.h"
 #include "app/cli/scene_output.h"
@@ -82,15 +83,13 @@ int pack_file(const PackCommand& options, const std::string& input, const std::f
         log.note(input_name(input), "primitives not compressed: " + listed(report.not_compressed));
     }
     note_images(*scene, input, output, log);
-    if (options.json) {
-        print_json(report_json(input_name(input), report, before, *written));
-        return done;
-    }
+    if (options.json) print_json(report_json(input_name(input), report, before, *written));
     const std::string errors = errors_of(report.max_error);
-    log.flush();
-    say("{}: {} primitives, {} triangles: {} bytes, before {}; geometry {} bytes, before {}; {}\n", output_name(path),
-        report.primitives, report.triangles, *written, before, report.geometry_after, report.geometry_before,
-        errors.empty() ? "lossless" : "largest error: " + errors);
+    log.wrote(output_name(path),
+              fmt::format("{}, {}, {} bytes, before {} bytes; geometry {} bytes, before {} bytes; {}",
+                          count_text(report.primitives, "primitive"), count_text(report.triangles, "triangle"),
+                          *written, before, report.geometry_after, report.geometry_before,
+                          errors.empty() ? "lossless" : "largest error: " + errors));
     return done;
 }
 
@@ -105,27 +104,26 @@ int run_pack(const PackCommand& options, RunLog& log) {
 
 void add_pack(CLI::App& program, Action& action) {
     auto options = std::make_shared<PackCommand>();
-    CLI::App* command = program.add_subcommand("pack", "make a glTF scene small and keep everything that is in it");
-    command->add_option("SCENE", options->inputs, ".gltf and .glb files; - is standard input")->required();
-    add_output(*command, options->output, "the .glb or .gltf file; FOLDER/ for several, - for standard output");
+    CLI::App* command = program.add_subcommand("pack", "compress a glTF scene and keep everything in it");
+    command->add_option("SCENE", options->inputs, ".gltf or .glb files; - is standard input")->required();
+    add_output(*command, options->output,
+               ".glb or .gltf file to write; FOLDER/ for several inputs; - is standard output");
     AttributeBits& bits = options->pack.bits;
-    CLI::Option* lossless = command->add_flag("--lossless", options->lossless, "every value stays what it is");
+    CLI::Option* lossless = command->add_flag("--lossless", options->lossless, "round nothing");
     add_attribute_bits(*command, bits);
     for (const char* name : {"--positions", "--normals", "--texcoords", "--colors", "--weights"}) {
         command->get_option(name)->excludes(lossless)->capture_default_str();
     }
     command->add_flag("--keep-order", options->pack.keep_order,
-                      "unpack gives vertices and triangles in the order that they have now");
+                      "let unpack restore the order of vertices and triangles");
     command->add_flag("--resident", options->resident,
-                      "streams that a GPU can draw from and that unpack several times as fast, not in storage form");
+                      "store streams that a GPU can draw: larger, and unpacked faster");
     command->add_flag("--fallback", options->pack.fallback,
-                      "plain buffers beside the streams, for loaders that do not know the extension");
+                      "add plain buffers for loaders that do not know the extension");
     allow_words(
-        command->add_option("--document", options->document,
-                            "the JSON of a .glb: as it is, or deflated; unless told deflated where it is much of the "
-                            "file"),
+        command->add_option("--document", options->document, "write a .glb's JSON {}; default: packed where large"),
         {"plain", "packed"});
-    command->add_flag("--json", options->json, "print a JSON document with the figures");
+    add_json(*command, options->json);
     add_allow_outside(*command, options->input);
     add_max_memory(*command, options->input);
     add_threads(*command, {&options->input.threads});
@@ -135,6 +133,8 @@ void add_pack(CLI::App& program, Action& action) {
                   [options] { return options->pack.fallback && options->document == "packed"; });
     rules->forbid("--json and -o - both write to standard output",
                   [options] { return options->json && options->output.path == "-"; });
+    add_example(*command, "pack scene.glb -o small.glb",
+                "command-line.md and docs/gltf/LACEDRING_mesh_compression/README.md");
     command->callback([options, rules, &action] {
         rules->check();
         if (options->lossless) options->pack.bits = {};

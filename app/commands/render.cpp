@@ -9,6 +9,7 @@
 
 #include "app/cli/camera_options.h"
 #include "app/cli/gpu_options.h"
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
 #include "app/cli/values.h"
@@ -98,7 +99,8 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
         const gpu::Path path = gpu::find_named(gpu::kPaths, options.path).value_or(gpu::Path::compute);
         device_bytes = context->arena().used() + renderer->device_bytes(*model, source, path);
         if (device_bytes > kWorthSaying) {
-            say("lacedring: drawing takes {:.1f} GB of device memory\n", static_cast<double>(device_bytes) / 1e9);
+            log.note(input_name(input),
+                     fmt::format("drawing takes {:.1f} GB of device memory", static_cast<double>(device_bytes) / 1e9));
         }
         Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
         if (!drawable) return drawable.error();
@@ -135,13 +137,11 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
                                       {"device_bytes", device_bytes},
                                       {"validation_messages", messages}};
         print_json(out);
-    } else {
-        const std::string line =
-            fmt::format("{}: {}x{}, {} triangles, {} {}, covers {:.1f} % of the picture; {}\n", output_name(output),
-                        options.size.width, options.size.height, model->triangle_count(), options.source, view_name,
-                        100 * share, context->info().name);
-        output == "-" ? say("{}", line) : print("{}", line);
     }
+    log.wrote(output_name(output),
+              fmt::format("{}x{} pixels, {} bytes; {}, {} {}, covers {:.1f} % of the picture; {}", options.size.width,
+                          options.size.height, png->size(), count_text(model->triangle_count(), "triangle"),
+                          options.source, view_name, 100 * share, context->info().name));
     return messages == 0 ? done : check_failed;
 }
 
@@ -159,32 +159,32 @@ int run_render(const RenderOptions& options, RunLog& log) {
 void add_render(CLI::App& program, Action& action) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
-    command->add_option("MESH", options->inputs, "mesh files; - is standard input")->required();
-    add_output(*command, options->output, "the PNG file; FOLDER/ for several, - for standard output");
+    command->add_option("MESH", options->inputs, "mesh files or .lr files; - is standard input")->required();
+    add_output(*command, options->output, ".png file to write; FOLDER/ for several inputs; - is standard output");
     add_input_options(*command, options->input, 150);
-    allow_words(command->add_option("--source", options->source, "what the triangles come from"),
-                gpu::names_of(gpu::kSources))
+    allow_words(command->add_option("--source", options->source, "draw from {}"), gpu::names_of(gpu::kSources))
         ->capture_default_str();
     add_position_bits(*command, options->positions);
-    allow_words(command->add_option("--path", options->path, "how the device expands the source"),
-                gpu::names_of(gpu::kPaths))
+    allow_words(command->add_option("--path", options->path, "decode on the device by {}"), gpu::names_of(gpu::kPaths))
         ->capture_default_str();
     allow_words(
-        command->add_option("--view", options->view, "what is shown: material where the file has any, else smooth"),
+        command->add_option("--view", options->view, "show {}; default: material if the file has any, else smooth"),
         gpu::names_of(gpu::kViews));
     allow_numbers(command->add_option("--crease", options->crease,
-                                      "degrees between triangles from which on --view silhouette draws their edge"),
+                                      "draw edges sharper than ANGLE degrees, with --view silhouette"),
                   0, 180)
+        ->type_name("ANGLE")
         ->capture_default_str();
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
-    command->add_flag("--no-warts", options->no_warts, "no wart skipping: the classes as they are before it");
+    command->add_flag("--no-warts", options->no_warts, "leave out wart skipping");
     add_size(*command, options->size);
-    allow_whole_numbers(command->add_option("--samples", options->samples, "samples a pixel along each side"), 1, 8)
+    allow_whole_numbers(command->add_option("--samples", options->samples, "samples along each side of a pixel, {}"), 1,
+                        8)
         ->default_str(std::to_string(kSamples));
     add_camera(*command, options->camera);
     add_device_options(*command, options->context);
-    command->add_flag("--json", options->json, "one JSON document on standard output");
+    add_json(*command, options->json);
 
     const auto shows_ring = [options] {
         const auto view = gpu::find_named(gpu::kViews, options->view);
@@ -208,6 +208,7 @@ void add_render(CLI::App& program, Action& action) {
         const std::string& passes = options->ring.optimize;
         return options->ring.seeds != 1 || (passes != "auto" && passes != "0");
     });
+    add_example(*command, "render bunny.ply -o bunny.png --view ring", "renderer.md");
     command->callback([options, rules, &action] {
         rules->check();
         action = [options](RunLog& log) { return run_render(*options, log); };

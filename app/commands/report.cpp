@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/output.h"
 #include "app/commands/commands.h"
@@ -31,7 +32,7 @@ std::string command_line(const CLI::App& command) {
     std::string out = "lacedring " + command.get_name(), positional;
     bool dashes = false;  // a file name begins with a dash
     for (const CLI::Option* option : command.get_options()) {
-        if (option->count() == 0) continue;
+        if (option->count() == 0 || option->get_name() == "--quiet") continue;  // the page is the same
         const bool flag = option->get_items_expected_max() == 0;
         for (const std::string& value : option->results()) {
             const bool dash = value.starts_with('-');
@@ -96,10 +97,10 @@ int run_report(ReportOptions& options, RunLog& log) {
     if (const Result<void> written = write_output(options.output.path, std::span(&part, 1)); !written) {
         return fail(output_name(options.output.path), written.error());
     }
-    const std::string line = fmt::format("{}: {}, {} bytes; {}\n", output_name(options.output.path),
-                                         counted(meshes.size(), "mesh", "meshes"), text.size(),
-                                         skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped);
-    options.output.path == "-" ? say("{}", line) : print("{}", line);
+    log.wrote(output_name(options.output.path),
+              fmt::format("{}, {} bytes; {}", counted(meshes.size(), "mesh", "meshes"), text.size(),
+                          skipped.empty() ? "drawn on " + page.device : "no pictures: " + skipped));
+    log.flush();
     return exit == done && messages != 0 ? check_failed : exit;
 }
 
@@ -107,9 +108,10 @@ int run_report(ReportOptions& options, RunLog& log) {
 
 void add_report(CLI::App& program, Action& action) {
     auto options = std::make_shared<ReportOptions>();
-    CLI::App* command = program.add_subcommand("report", "figures, charts and pictures of meshes as one HTML page");
-    command->add_option("MESH", options->paths, "mesh files")->required();
-    add_output(*command, options->output, "the HTML file; - for standard output");
+    CLI::App* command =
+        program.add_subcommand("report", "write figures, charts and pictures of meshes as one HTML page");
+    command->add_option("MESH", options->paths, "mesh files or .lr files; - is standard input")->required();
+    add_output(*command, options->output, ".html file to write; - is standard output");
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
@@ -119,6 +121,7 @@ void add_report(CLI::App& program, Action& action) {
                        "--camera-elevation-angle", "--camera-zoom-factor", "--camera-view-angle", "--device",
                        "--device-memory", "--validation"},
                       "--no-gpu");
+    add_example(*command, "report bunny.ply kitten.glb -o meshes.html", "command-line.md");
     command->callback([options, rules, &action, command] {
         rules->check();
         options->command = command_line(*command);

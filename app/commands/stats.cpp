@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/values.h"
 #include "app/commands/commands.h"
@@ -281,24 +282,21 @@ int run_stats(const StatsOptions& options, RunLog& log) {
 
 void add_stats(CLI::App& program, Action& action) {
     auto options = std::make_shared<StatsOptions>();
-    CLI::App* command = program.add_subcommand("stats", "size of every format, side by side");
-    command->add_option("MESH", options->paths, "mesh files")->required();
+    CLI::App* command = program.add_subcommand("stats", "list the size of a mesh in every format");
+    command->add_option("MESH", options->paths, "mesh files or .lr files; - is standard input")->required();
     add_input_options(*command, options->input, 350);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
-    command->add_flag(
-        "--paper", options->paper,
-        "the paper's procedures alone: no optimiser, ring-expander, and for lr_compact the hybrid with the best k");
+    command->add_flag("--paper", options->paper, "make rings as the paper does, without the optimizer");
     add_attribute_bits(*command, options->bits);
-    command->add_option("--attributes", options->attributes, "count these alone: POSITION,NORMAL,...")
+    command->add_option("--attributes", options->attributes, "count only these attributes, in --table total")
         ->expected(1)
         ->delimiter(',')
         ->type_name("A,B,...");
-    allow_words(
-        command->add_option("--table", options->table, "what is printed; the others than sizes and total as Markdown"),
-        {"sizes", "total", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"})
+    allow_words(command->add_option("--table", options->table, "print {}"),
+                {"sizes", "total", "packed", "table1", "lean", "storage", "offsets", "periods", "seeds"})
         ->capture_default_str();
-    command->add_flag("--json", options->json, "one JSON document on standard output");
+    add_json(*command, options->json);
     auto rules = std::make_shared<OptionRules>(*command);
     rules->never_with({"--optimize"}, "--paper");
     const auto makes_sizes = [options] { return options->json || !makes_rings(*options); };
@@ -314,6 +312,7 @@ void add_stats(CLI::App& program, Action& action) {
     });
     rules->only_with({"--seeds"}, "--json, or another --table than seeds",
                      [options, makes_sizes] { return makes_sizes() || options->table != "seeds"; });
+    add_example(*command, "stats bunny.ply", "command-line.md and docs/results.md");
     command->callback([options, rules, &action] {
         rules->check();
         action = [options](RunLog& log) { return run_stats(*options, log); };

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli/help.h"
 #include "app/cli/print.h"
 #include "app/cli/scene_output.h"
 #include "app/commands/commands.h"
@@ -33,9 +34,9 @@ int unpack_file(const UnpackCommand& options, const std::string& input, const st
     const auto written = write_scene(*scene, output);
     if (!written) return fail(output_name(path), written.error());
     note_images(*scene, input, output, log);
-    log.flush();
-    say("{}: {} primitives, {} triangles: {} bytes, packed {}\n", output_name(path), report.primitives,
-        report.triangles, *written, input_bytes(bytes->size(), report.read));
+    log.wrote(output_name(path),
+              fmt::format("{}, {}, {} bytes; packed {} bytes", count_text(report.primitives, "primitive"),
+                          count_text(report.triangles, "triangle"), *written, input_bytes(bytes->size(), report.read)));
     return done;
 }
 
@@ -51,10 +52,13 @@ int run_unpack(const UnpackCommand& options, RunLog& log) {
 void add_unpack(CLI::App& program, Action& action) {
     auto options = std::make_shared<UnpackCommand>();
     CLI::App* command = program.add_subcommand("unpack", "write a packed scene as plain glTF");
-    command->add_option("PACKED", options->inputs, "what pack wrote; - is standard input")->required();
-    add_output(*command, options->output, "the .glb or .gltf file; FOLDER/ for several, - for standard output");
+    command->add_option("PACKED", options->inputs, ".gltf or .glb files that pack wrote; - is standard input")
+        ->required();
+    add_output(*command, options->output,
+               ".glb or .gltf file to write; FOLDER/ for several inputs; - is standard output");
     add_allow_outside(*command, options->input);
     add_max_memory(*command, options->input);
+    add_example(*command, "unpack small.glb -o plain.glb", "command-line.md");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_unpack(*options, log); }; });
 }
 

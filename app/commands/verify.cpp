@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/help.h"
 #include "app/cli/progress.h"
 #include "app/commands/commands.h"
 #include "app/formats/formats.h"
@@ -108,12 +109,13 @@ int run_verify(const VerifyOptions& options, RunLog& log) {
 void add_verify(CLI::App& program, Action& action) {
     auto options = std::make_shared<VerifyOptions>();
     CLI::App* command =
-        program.add_subcommand("verify", "check that every format round-trips, of a scene each primitive, too");
-    command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file")->required();
+        program.add_subcommand("verify", "check that every format gives back the mesh, and each primitive of a scene");
+    command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file; - is standard input")->required();
     add_input_options(*command, options->input.options, 350);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.options.threads, &options->ring.threads});
-    command->add_flag("--json", options->json, "one JSON document on standard output");
+    add_json(*command, options->json);
+    add_example(*command, "verify bunny.ply", "reliability.md");
     command->callback([options, &action] { action = [options](RunLog& log) { return run_verify(*options, log); }; });
 }
 

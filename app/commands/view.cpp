@@ -33,8 +33,8 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 void add_view(CLI::App& program, Action& action) {
-    CLI::App* command = program.add_subcommand("view", "interactive viewer");
-    command->set_help_flag();  // --help is passed to the viewer
+    CLI::App* command = program.add_subcommand("view", "open a window that shows a mesh, its ring and its formats");
+    command->set_help_flag();  // the viewer's own
     command->prefix_command();
     command->callback([command, &action] { action = [words = command->remaining()](RunLog&) { return run(words); }; });
 }

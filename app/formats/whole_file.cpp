@@ -13,10 +13,10 @@ namespace lacedring::app {
 
 void add_attribute_bits(CLI::App& command, AttributeBits& bits) {
     add_position_bits(command, bits.positions);
-    add_bits(command, "--normals", bits.normals, 2, 16, "of normals and tangents: of each of two octahedral integers");
-    add_bits(command, "--texcoords", bits.texcoords, 1, 22, "of texture coordinates");
-    add_bits(command, "--colors", bits.colors, 1, 22, "of colors that are floats");
-    add_bits(command, "--weights", bits.weights, 1, 22, "of weights that are floats");
+    add_bits(command, "--normals", bits.normals, 2, 16, "round normals and tangents to two integers of {} bits");
+    add_bits(command, "--texcoords", bits.texcoords, 1, 22, "round texture coordinates to {} bits");
+    add_bits(command, "--colors", bits.colors, 1, 22, "round colors that are floats to {} bits");
+    add_bits(command, "--weights", bits.weights, 1, 22, "round skin weights that are floats to {} bits");
 }
 
 bool quantizes(const AttributeBits& bits) {

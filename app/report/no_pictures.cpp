@@ -14,7 +14,7 @@ ReportPictures::ReportPictures() : drawer_(std::make_unique<Drawer>()) {}
 ReportPictures::~ReportPictures() = default;
 
 void ReportPictures::add_options(CLI::App& command) {
-    command.add_flag("--no-gpu", drawer_->off, "no pictures");
+    command.add_flag("--no-gpu", drawer_->off, "draw no pictures");
 }
 
 Result<ReportPictures::Device> ReportPictures::open() {

@@ -53,9 +53,8 @@ ReportPictures::ReportPictures() : drawer_(std::make_unique<Drawer>()) {}
 ReportPictures::~ReportPictures() = default;
 
 void ReportPictures::add_options(CLI::App& command) {
-    command.add_flag("--no-gpu", drawer_->off, "no pictures");
+    command.add_flag("--no-gpu", drawer_->off, "draw no pictures");
     add_size(command, drawer_->size);
-    command.get_option("--size")->description("pixels of a picture, 960x720 unless told");
     add_camera(command, drawer_->camera);
     add_device_options(command, drawer_->options);
 }

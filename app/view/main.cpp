@@ -14,6 +14,7 @@
 #include "app/cli/camera_options.h"
 #include "app/cli/command.h"
 #include "app/cli/gpu_options.h"
+#include "app/cli/help.h"
 #include "app/cli/option_rules.h"
 #include "app/cli/values.h"
 #include "app/view/script/script.h"
@@ -169,31 +170,33 @@ int run(Options& options, Threads& threads) {
 }
 
 int start(int argc, char** argv, Threads& threads) {
-    CLI::App program("interactive viewer");
+    CLI::App program("open a window that shows a mesh, its ring and its formats");
     program.name("lacedring view");
+    app::format_help(program);
     Options options;
-    auto* mesh = program.add_option("MESH", options.viewer.input.path, "mesh file");
+    auto* mesh = program.add_option("MESH", options.viewer.input.path, "mesh file or .lr file");
     app::add_input_options(program, options.viewer.input.options, 250);
     options.viewer.input.options.materials = true;
     app::add_size(program, options.size);
     app::allow_numbers(
-        program.add_option("--scale", options.scale, "pixels per nominal pixel of the panels; default: the display's"),
-        0.5, 8);
-    program.add_flag("--no-panels", options.no_panels, "no panels until Tab is pressed");
+        program.add_option("--scale", options.scale, "enlarge the panels {} times; default: as the display asks"), 0.5,
+        8);
+    program.add_flag("--no-panels", options.no_panels, "hide the panels until Tab is pressed");
     app::allow_whole_numbers(
-        program.add_option("--fps", options.viewer.frame_cap, "most pictures per second; 0: no limit"), 0, 1000)
+        program.add_option("--fps", options.viewer.frame_cap, "draw at most so many frames per second; 0: no limit"), 0,
+        1000)
         ->capture_default_str();
     auto* screenshot =
-        program.add_option("--screenshot", options.screenshot, "write a PNG file when the mesh is ready, and exit")
-            ->type_name("PNG")
+        program.add_option("--screenshot", options.screenshot, "write a picture when everything is shown, and exit")
+            ->type_name("FILE")
             ->needs(mesh);
-    program.add_option("--script", options.script, "execute the lines of a file (docs/viewer.md)")
-        ->type_name("FILE")
-        ->excludes(screenshot);
-    program.add_option("--shaders", options.viewer.shaders, "folder of shaders, compiled again when they change")
-        ->type_name("DIR");
+    program.add_option("--script", options.script, "run the commands in FILE")->type_name("FILE")->excludes(screenshot);
+    program
+        .add_option("--shaders", options.viewer.shaders, "compile the shaders in FOLDER whenever one of them changes")
+        ->type_name("FOLDER");
     app::add_camera(program, options.viewer.camera);
     app::add_device_options(program, options.context);
+    app::add_example(program, "view bunny.ply", "viewer.md");
     app::OptionRules rules(program);
     rules.never_with({"--fps"}, "--screenshot");
     rules.forbid("--scale has no effect with --screenshot and --no-panels",

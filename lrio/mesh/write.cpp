@@ -68,14 +68,16 @@ MeshFormat writable_format(const std::filesystem::path& path) {
     return MeshFormat::any;
 }
 
-Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, WriteNotes* notes) {
+Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, WriteNotes* notes, std::uint64_t* bytes) {
     LR_ASSIGN(const File file, make_file(mesh, writable_format(path), notes));
+    if (bytes != nullptr) *bytes = file.head.size() + file.body.size();
     const std::span<const std::byte> parts[] = {file.head, file.body};
     return write_file(path, parts);
 }
 
-Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes) {
+Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes, std::uint64_t* bytes) {
     LR_ASSIGN(const File file, make_file(mesh, format, notes));
+    if (bytes != nullptr) *bytes = file.head.size() + file.body.size();
     const std::span<const std::byte> parts[] = {file.head, file.body};
     return write_descriptor(descriptor, parts);
 }

@@ -3,6 +3,8 @@
 
 import json
 import os
+import re
+import shlex
 import signal
 import socket
 import struct
@@ -341,13 +343,88 @@ class Notes(CliTest):
         for options in ((), ("--weld",), ("--weld=position",), ("--no-weld",)):
             self.assertEqual(self.ok("info", *options, mesh).err, "")
 
-    def test_encode_reports_the_file_that_it_wrote(self):
+    def writers(self):
+        """Commands that write a file, each with a pattern of the line that says so; BYTES stands for the file's size."""
+        mesh, lr, glb, packed = self.generate("blob", 300), self.path("a.lr"), self.path("a.glb"), self.path("p.glb")
+        out = [(["generate", "blob", "--triangles", "300", "-o", mesh], r"300 triangles, 152 vertices, BYTES bytes"),
+               (["encode", mesh, "-o", lr], r"300 triangles, 152 vertices, BYTES bytes: .*"),
+               (["decode", lr, "-o", glb], r"300 triangles, 152 vertices, BYTES bytes"),
+               (["decode", lr, "-o", self.path("a.ply")], r"300 triangles, 152 vertices, BYTES bytes"),
+               (["pack", glb, "-o", packed], r"1 primitive, 300 triangles, BYTES bytes, before \d+ bytes; geometry .*; largest error: .*"),
+               (["pack", glb, "-o", packed, "--json"], r"1 primitive, 300 triangles, BYTES bytes, .*"),
+               (["unpack", packed, "-o", self.path("u.glb")], r"1 primitive, 300 triangles, BYTES bytes; packed \d+ bytes"),
+               (["report", mesh, "--no-gpu", "-o", self.path("a.html")], r"1 mesh, BYTES bytes; no pictures: .*")]
+        if self.has_command("render"):
+            render = ["render", mesh, "--size", "64x48", "-o", self.path("a.png")]
+            line = r"64x48 pixels, BYTES bytes; 300 triangles, lean smooth, covers [\d.]+ % of the picture; .*"
+            out += [(render, line), ([*render, "--json"], line)]
+        return out
+
+    def test_what_was_written(self):
+        """One line a file on standard error, in one form, with --json and - as output, too."""
+        for command, line in self.writers():
+            with self.subTest(command):
+                outcome = self.ok(*command)
+                path = command[command.index("-o") + 1]
+                self.assertRegex(outcome.err, rf"\A{re.escape(path)}: {line.replace('BYTES', str(os.path.getsize(path)))}\n\Z")
+                self.assertEqual(outcome.out == "", "--json" not in command)
+                if "--json" in command:
+                    continue
+                to = "-o - --output-format ply" if command[0] in ("generate", "decode") else "-o -"
+                words = [word for word in command if word not in ("-o", path)]
+                done = shell(f"$L {shlex.join(words)} {to} 2>&1 >'{self.path('out')}'")
+                self.assertEqual(done.returncode, DONE)
+                self.assertRegex(done.stdout, rf"\Astandard output: {line.replace('BYTES', str(os.path.getsize(self.path('out'))))}\n\Z")
+
+    def test_quiet(self):
+        """--quiet leaves standard error to errors, in every command that says anything else there."""
+        mesh = self.write("m.obj", b"usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\nf 1 1 2\n")
+        commands = [(command, line) for command, line in self.writers()]
+        commands += [([name, mesh, *options], None) for name, *options in (("info",), ("stats",), ("verify",))]
+        commands += [(["encode", mesh, "-o", self.path("m.lr")], None)]
+        if self.has_command("compare"):
+            commands.append((["compare", mesh, "--path", "compute", "--source", "lean", "--size", "64x48"], None))
+        for command, _ in commands:
+            with self.subTest(command):
+                for quiet in ("--quiet", "-q"):
+                    self.assertEqual(self.ok(*command, quiet).err, "")
+        self.fails("info", "--quiet", self.path("missing.ply"), mentions=["missing.ply"])
+        if self.has_command("view"):
+            self.fails("view", "--quiet", codes=(WRONG_USAGE,), mentions=["--quiet"])
+        # The page does not tell how it was asked for.
+        pages = []
+        for options in ([], ["--quiet"]):
+            self.ok("report", mesh, "--no-gpu", "-o", self.path("m.html"), *options)
+            with open(self.path("m.html"), "rb") as file:
+                pages.append(file.read())
+        self.assertEqual(pages[0], pages[1])
+
+    def test_quiet_on_a_terminal(self):
+        """The same of progress bars, which only a terminal gets."""
+        mesh = self.generate("blob", 300000)
+        for options, shows in (([], True), (["--quiet"], False)):
+            terminal, other = os.openpty()
+            encode = subprocess.Popen([cli_support.program, "encode", mesh, "-o", self.path("m.lr"), "--effort", "9", *options], stderr=other)
+            os.close(other)
+            said = b""
+            try:
+                while block := os.read(terminal, 65536):
+                    said += block
+            except OSError:  # nobody writes to it any more
+                pass
+            os.close(terminal)
+            self.assertEqual(encode.wait(timeout=60), DONE)
+            self.assertEqual(b"optimizing the ring [" in said, shows, said[:300])
+            if not shows:
+                self.assertEqual(said, b"")
+
+    def test_encode_says_what_it_wrote(self):
         mesh = self.write("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\nf 1 1 2\nf 1 2 2\n")
         lr = self.path("m.lr")
         outcome = self.ok("encode", mesh, "-o", lr, "--format", "packed")
         self.assertIn("2 degenerate triangles dropped", outcome.err)
         size = os.path.getsize(lr)
-        self.assertRegex(outcome.err, rf"2 triangles, {size} bytes: {8 * size / 2:.2f} bits per triangle, {8 * size / 4:.2f} per "
+        self.assertRegex(outcome.err, rf"m.lr: 2 triangles, 4 vertices, {size} bytes: {8 * size / 2:.2f} bits per triangle, {8 * size / 4:.2f} per "
                                       r"vertex; connectivity (\d+) bytes, .*; lossless; resident \d+ bytes\n")
         words = outcome.err.split()
         connectivity = int(words[words.index("connectivity") + 1])

@@ -65,13 +65,15 @@ using WriteNotes = std::vector<std::string>;
 
 /// Writes GLB, binary PLY or OBJ by the extension of `path` (.glb, .ply, .obj). PLY keeps every attribute bit for bit;
 /// GLB keeps what glTF can hold, and OBJ positions, normals, texture coordinates and colors (docs/formats-read.md).
-/// `notes`, if given, lists all differences. The file is complete or untouched (write_file). Errors: cannot_write,
-/// invalid_argument (extension, or a mesh that breaks its invariants), unsupported (no triangles), too_large (GLB above
-/// 4 GiB). Cost: O(file).
-Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, WriteNotes* notes = nullptr);
+/// `notes`, if given, lists all differences; `bytes`, if given, receives the file's size. The file is complete or
+/// untouched (write_file). Errors: cannot_write, invalid_argument (extension, or a mesh that breaks its invariants),
+/// unsupported (no triangles), too_large (GLB above 4 GiB). Cost: O(file).
+Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, WriteNotes* notes = nullptr,
+                        std::uint64_t* bytes = nullptr);
 
 /// Writes GLB (MeshFormat::gltf), PLY or OBJ to an open file descriptor.
-Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes = nullptr);
+Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes = nullptr,
+                        std::uint64_t* bytes = nullptr);
 
 /// The bytes that write_mesh writes.
 Result<std::vector<std::byte>> mesh_file_bytes(const Mesh& mesh, MeshFormat format, WriteNotes* notes = nullptr);
