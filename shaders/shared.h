@@ -112,7 +112,7 @@ struct DrawConstants {
 
 #define LR_CONSTANT_FOURS 6  // slot_words.comp: decodes four slots at a time
 
-// Floats per vertex: position (absent if shaders decode it from a vertex stream), normal, place along the rings.
+// Floats per vertex: position (absent if shaders decode it from a vertex stream), normal, position along the rings.
 #define LR_POSITION_FLOATS 3u
 #define LR_VERTEX_FLOATS 7u
 // Slots per input point of surface.geom.

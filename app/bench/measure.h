@@ -13,10 +13,10 @@ namespace lacedring::app {
 /// Wall seconds of one call.
 double seconds(const std::function<void()>& work);
 
-/// Resident memory of the process in bytes; 0 if the system does not tell.
+/// Resident memory of the process in bytes; 0 if the system does not report it.
 std::size_t resident_bytes();
 
-/// Peak growth in bytes of the process's resident memory during one call; 0 if the system does not tell (it needs
+/// Peak growth in bytes of the process's resident memory during one call; 0 if the system does not report it (needs
 /// /proc/self/clear_refs).
 std::size_t peak_bytes(const std::function<void()>& work);
 

@@ -35,7 +35,7 @@ struct Reference {
 
 /// Maps vertices and corners of the corner table to those of a structure.
 struct Numbering {
-    // place[triangle]: 4 * its number in the structure + the place of its first corner.
+    // place[t]: 4 * the number of triangle t in the structure + the index (0, 1 or 2) of its first corner.
     std::vector<std::uint32_t> vertex_to, place;
 
     Numbering(const LrMap& map, const CornerTableCView& table)

@@ -45,7 +45,7 @@ struct ResidentFigures {
     };
     std::size_t page_bytes = 0, contour_triangles = 0;
     std::uint32_t sample = 0;
-    /// Those of corner_table, squad, lr and lr_compact that are not absent, in this order.
+    /// Structures in the order corner_table, squad, lr, lr_compact; without those that are absent.
     std::vector<Structure> structures;
     std::vector<std::pair<std::string, std::string>> absent;  ///< structure, reason
     std::vector<Level> levels;                                ///< largest limit first

@@ -40,7 +40,7 @@ Result<std::vector<std::byte>> read_input(const std::string& path, const InputOp
 /// A mesh and its surface.
 struct LoadedMesh {
     Mesh mesh;
-    /// It has no seams after --no-weld and --weld=attributes.
+    /// The surface has no seams after --no-weld and --weld=attributes.
     Surface surface;
     std::optional<LrContents> lr;             ///< contents of an .lr file
     std::vector<std::uint64_t> streams = {};  ///< ReadReport::streams

@@ -37,7 +37,7 @@ class OptionRules {
 
   private:
     struct Rule {
-        /// The rule is checked only if it is given; empty: always.
+        /// The rule is checked only if this option is given; empty: always.
         std::string option;
         std::string message;
         std::function<bool()> broken;

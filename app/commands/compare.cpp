@@ -84,7 +84,7 @@ DrawnScene check_scene(const LoadedScene& scene, double tolerance) {
     return out;
 }
 
-/// Whether nearly nothing of the mesh is visible. This depends on the mesh only, so any result may tell.
+/// Whether nearly nothing of the mesh is visible. This depends on the mesh only, so any result may be used.
 bool is_blank(std::span<const Compared> all) {
     return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
 }

@@ -33,8 +33,8 @@ class ReportPictures {
     Result<Device> open();
 
     /// Draws three pictures into `report`: the mesh with smooth shading, the ring of lean, and the order along the
-    /// ring. If the mesh cannot be drawn, `report.no_pictures` says why. Does nothing without a device. Errors: of the
-    /// device, and an impossible camera.
+    /// ring. If the mesh cannot be drawn, `report.no_pictures` says why. Does nothing without a device. Errors: those
+    /// of the device, and an impossible camera.
     Result<void> draw(const LoadedMesh& loaded, const RingChoice& choice, MeshReport& report) const;
 
     /// Prints the validation messages on standard error; returns their number.

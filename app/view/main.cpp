@@ -49,7 +49,7 @@ void feed(Viewer& viewer, std::deque<Event>& events) {
         viewer.handle(event);
         const bool more_moves = event.kind == Event::move && !events.empty() && events.front().kind == Event::move;
         if ((event.kind == Event::button || event.kind == Event::key) && event.down) return;
-        // End the frame after the last of a row of moves: panels must know the mouse's place before a press.
+        // End the frame after the last of several moves: panels must know the mouse's position before a press.
         if (event.kind == Event::move && !more_moves && !events.empty()) return;
     }
 }

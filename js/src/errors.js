@@ -42,7 +42,7 @@ export class LacedRingError extends Error {
 }
 
 /**
- * Makes an error of a C function's status. `what`: part of the file; `where`: the place or number that the function
+ * Makes an error of a C function's status. `what`: part of the file; `where`: the position or number that the function
  * reported.
  */
 export function errorOf(status, what, where) {

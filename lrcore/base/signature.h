@@ -22,7 +22,8 @@ constexpr std::uint32_t kLrFile = 0x4c46524c;     // "LRFL"
 }  // namespace magic
 
 /// Returns the kind as a phrase: "a lean stream", "a packed stream", "LR tables", "bit-efficient LR tables", "an .lr
-/// file", "a GLB file", "a PLY file", ...; empty if the first 4 KiB do not tell. Untrusted input: safe. Cost: O(1).
+/// file", "a GLB file", "a PLY file", ...; empty if the first 4 KiB do not identify it. Untrusted input: safe. Cost:
+/// O(1).
 std::string_view kind_by_signature(std::span<const std::byte> bytes);
 
 /// Error message for words with another magic number than `wanted` (a phrase as above): "these are LR tables, not a

@@ -105,8 +105,8 @@ lacedring_code decode_all(const lacedring_stream* stream, Index* indices, std::s
     });
 }
 
-/// The triangle of a slot; none if the words are no stream. Skips StreamView, which counts the triangles of LR tables
-/// in linear time.
+/// The triangle of a slot; none if the words are not a stream. Skips StreamView, which counts the triangles of LR
+/// tables in linear time.
 std::optional<Triangle> triangle_of(const lacedring_stream& stream, std::uint32_t slot) {
     const auto decoded = [slot](const auto& view) {
         return view ? detail::decode_slot(*view, slot) : std::optional<Triangle>();

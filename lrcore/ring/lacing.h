@@ -64,7 +64,7 @@ class Lacing {
     std::uint32_t opposite(std::uint32_t c) const { return opposite_[c]; }
 
     bool is_t0(std::uint32_t t) const { return mask(t) == 0; }
-    /// Is t a T0 in no wart, and not degenerate?
+    /// Is t a T0 that is not part of a wart and not degenerate?
     bool is_expensive(std::uint32_t t) const { return (state_[t] & (kT0Key | kDegenerate)) == 0; }
     bool is_t2(std::uint32_t t) const { return kBits[mask(t)] == 2; }
     /// The corner between the ring edges of a T2.

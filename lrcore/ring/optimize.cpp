@@ -81,7 +81,7 @@ class Annealer {
           rounds_(std::clamp<std::uint32_t>(kSmall / lacing.size(), 4, 24)),
           random_(random_seed) {}
 
-    /// Tries changes at every vertex off the rings and at every T2 near a T0 that is in no wart. `isolated` has a
+    /// Tries changes at every vertex off the rings and at every T2 near a T0 outside warts. `isolated` has a
     /// corner of each vertex off the rings.
     void run(std::uint32_t pass, std::span<const std::uint32_t> isolated) {
         for (const std::uint32_t c : isolated) {
@@ -108,7 +108,7 @@ class Annealer {
     static constexpr std::uint32_t kReach = 24;
     static constexpr std::uint32_t kSmall = 32768;
     static constexpr std::size_t kBatch = 128;  // dead ends per batch
-    /// If warts are cheap: the distance in triangles from a T0 in no wart up to which T2 are tried, and the number of
+    /// If warts are cheap: T2 up to this distance, in triangles, from a T0 outside warts are tried; and the number of
     /// passes that use the same marks.
     static constexpr std::uint32_t kNearWarts = 6, kMarkingWarts = 2;
     static constexpr std::uint32_t kNear = 20, kMarking = 8;  // if warts are not cheap
@@ -248,7 +248,7 @@ class Annealer {
         batch_.insert(batch_.end(), moved_.begin(), moved_.end());
     }
 
-    /// Marks the triangles of the range near a T0 in no wart, and clears all other marks.
+    /// Marks the triangles of the range that are near a T0 outside warts, and clears all other marks.
     void mark_near() {
         std::vector<std::uint32_t> near;
         lacing_.mark_expensive(range_, near);

@@ -35,7 +35,7 @@ class MixedProducts {
         const Point a = minus(p, from_), e = minus(q, p), f = minus(r, p);
         const Point n = cross(e, f);
         sum_.add(dot(n, a));
-        // The same product with absolute values: rounding errors are relative to it.
+        // The product of the absolute values: rounding errors are relative to it.
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
             magnitude_ += (std::abs(e[i] * f[j]) + std::abs(e[j] * f[i])) * std::abs(a[k]);

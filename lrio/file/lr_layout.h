@@ -103,12 +103,12 @@ std::string view_name(const Section& section, std::span<const std::byte>& conten
 std::string view_attribute(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
 
-/// The same for a vertex stream in storage form. The words are not read, so the type, components and normalized of
-/// `out` are not set. `contents` may have any alignment.
+/// Fills `out` from a section with a vertex stream in storage form. Does not read the words, so the type, components
+/// and normalized of `out` are not set. Returns an error message, or empty. `contents` may have any alignment.
 std::string view_stored_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
 
-/// The same for a vertex stream; checks only its header.
+/// Fills `out` from a section with a vertex stream; checks only its header. Returns an error message, or empty.
 std::string view_stream_of(const FileHeader& header, const Section& section, std::span<const std::byte> contents,
                            AttributeView& out);
 
@@ -210,7 +210,7 @@ std::span<const std::uint32_t> triangles_of(const DecodedLr& decoded, bool per_c
 /// decimals); else empty. The stream is valid.
 std::vector<std::uint32_t> position_integers(const LrFile& file);
 
-/// The places of an attribute's values; `positions` is position_integers' result.
+/// The positions from which an attribute's values are predicted; `positions` is position_integers' result.
 storage::VertexPlaces places_of(std::span<const std::uint32_t> positions, const DecodedLr& decoded, bool per_copy);
 
 /// The attribute as plain values; decodes a stream, which must be valid.

@@ -122,7 +122,7 @@ std::vector<std::byte> serialize_lr(const LrFile& file, LrForm form) {
     StoredStreams stored;
     if (form == LrForm::stored) stored = store_streams(file);
     std::vector<Section> sections;
-    std::vector<std::vector<std::byte>> names;  // a padded name for each section; empty if it is no attribute
+    std::vector<std::vector<std::byte>> names;  // a padded name for each section; empty if it is not an attribute
     std::vector<std::span<const std::byte>> contents;
     const auto add = [&](Kind kind, std::span<const std::byte> data) {
         sections.push_back({kind, kResident, 0, 0, 0, 0, 0});

@@ -75,7 +75,7 @@ enum class GltfUse : std::uint8_t {
 /// Opens no buffers. Errors: malformed, unsupported (a version, or a required extension), too_large.
 Result<GltfFile> load_gltf(std::span<const std::byte> bytes, Reading& reading, GltfUse use = GltfUse::triangles);
 
-/// The same for a split file. `file_bytes`: size of the original file.
+/// Loads a file that is already split into its chunks. `file_bytes`: size of the original file.
 Result<GltfFile> load_gltf(const GltfChunks& chunks, std::size_t file_bytes, Reading& reading,
                            GltfUse use = GltfUse::triangles);
 

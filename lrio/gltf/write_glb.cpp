@@ -76,7 +76,7 @@ class GlbMaker {
     }
 
     std::size_t add_indices() {
-        const bool narrow = mesh_.vertex_count <= 65535;  // 65535 is no valid index: it means primitive restart
+        const bool narrow = mesh_.vertex_count <= 65535;  // 65535 is not a valid index: it means primitive restart
         const std::size_t size = narrow ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
         const std::size_t offset = bin_.size();
         const std::size_t length = mesh_.indices.size() * size;

@@ -108,7 +108,7 @@ Groups group_equal(std::uint32_t count, const Hash& hash, const Compare& compare
     return groups;
 }
 
-/// The same for an array of items of `size` bytes each.
+/// Groups equal items of an array; an item has `size` bytes.
 inline Groups group_equal_bytes(const std::byte* data, std::size_t size, std::uint32_t count) {
     return group_equal(
         count, [=](std::uint32_t i) { return hash_bytes(data + i * size, size, size); },

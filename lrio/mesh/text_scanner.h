@@ -129,7 +129,7 @@ class TextScanner {
         return view(first.data(), last.data() + last.size());
     }
 
-    /// The line number of a place in the text, from 1. Cost: O(text before it).
+    /// The line number of a position in the text, from 1. Cost: O(text before it).
     std::size_t line_of(const char* place) const {
         const char newline = std::find(begin_, end_, '\n') == end_ ? '\r' : '\n';
         return static_cast<std::size_t>(std::count(begin_, place, newline)) + 1;

@@ -28,7 +28,7 @@ struct JsonValue {
     bool is_string() const { return kind == Kind::scalar && text.starts_with('"'); }
     std::size_t size() const;
 
-    /// The member `name`, the last one if there are several; null: none, or this is no object.
+    /// The member `name`, the last one if there are several; null if there is none or this is not an object.
     JsonValue* find(std::string_view name);
     const JsonValue* find(std::string_view name) const;
     /// The elements of the member `name`; empty if it is not an array.

@@ -183,7 +183,8 @@ class Packer {
         }
     }
 
-    /// The number of each part of each set: parts are numbered in the document's order of their first primitives.
+    /// out[s][p]: the number of part p of set s. Parts are numbered by the order of their first primitives in the
+    /// document.
     std::vector<std::vector<std::uint32_t>> number_parts(const Group& group) const {
         std::vector<std::vector<std::uint32_t>> out;
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> places;

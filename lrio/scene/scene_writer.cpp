@@ -174,7 +174,7 @@ void describe_indices(JsonText& json, JsonValue& accessor, std::size_t count, st
     accessor.remove("min");
     accessor.remove("max");
     accessor.set("count", json.number(count));
-    // The largest number of each type is no valid index: it means primitive restart.
+    // The largest number of each type is not a valid index: it means primitive restart.
     const std::uint64_t needed = vertices <= 0xff     ? kGltfUnsignedByte
                                  : vertices <= 0xffff ? kGltfUnsignedShort
                                                       : kGltfUnsignedInt;

@@ -121,7 +121,7 @@ class Unpacker {
         return take_memory(vertices * static_cast<double>(stride), contents.input_triangles);
     }
 
-    /// The place of an accessor's decoded values.
+    /// Where an accessor's decoded values are stored.
     struct Target {
         std::size_t size = 0;  ///< bytes of the decoded values
         bool apart = false;    ///< in apart_, because the values must be converted or padded; else in bin_

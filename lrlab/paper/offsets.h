@@ -18,7 +18,7 @@ constexpr std::uint32_t offset_bits(std::uint32_t v, std::uint32_t tip, std::uin
     return static_cast<std::uint32_t>(std::bit_width(std::min(forward, ring_vertices - forward)));
 }
 
-/// Numbers of triangles by the place of their tip. Each triangle is counted once, a T2 with its second edge.
+/// Numbers of triangles by the ring offset of their tip. Each triangle is counted once, a T2 with its second edge.
 struct OffsetCounts {
     std::array<std::uint32_t, 29> bits{};  ///< bits[b]: triangles with a slot, whose offset has b significant bits
     std::uint32_t off_ring = 0;            ///< triangles with a slot (T0w) and an isolated tip: no offset

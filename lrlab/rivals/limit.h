@@ -26,9 +26,9 @@ Valences count_valences(std::span<const std::uint32_t> indices, std::uint32_t ve
 /// too_large (the valences are not moderate).
 Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// The same for meshlets of many components: at a component's end, meshoptimizer searches the next triangle by its
-/// centroid, and visits all triangles with the same centroid. `positions` has 3 floats a vertex. Cost: O(T log T), 8
-/// bytes a triangle. Errors: too_large.
+/// Checks that making meshlets of a mesh with many components takes linear time. After each component, meshoptimizer
+/// searches a triangle by its centroid and visits all triangles that have this centroid. `positions` has 3 floats a
+/// vertex. Cost: O(T log T), 8 bytes a triangle. Errors: too_large.
 Result<void> check_places(std::span<const std::uint32_t> indices, std::span<const float> positions);
 
 }  // namespace lacedring

@@ -83,8 +83,8 @@ Result<void> put(const Upload& upload, Buffer& to, const char* name, std::span<c
     return upload.transfer.upload(to, values);
 }
 
-/// Uploads GpuMesh::vertices, without positions that are decoded from a vertex stream. `original(i)` is the mesh's
-/// vertex at place i, `ring(i)` its place on the rings.
+/// Uploads GpuMesh::vertices, without positions that are decoded from a vertex stream. `original(i)` is the mesh
+/// vertex of uploaded vertex i, `ring(i)` its position along the rings.
 template <class Original, class Ring>
 Result<void> upload_vertices(const Upload& upload, const GpuMesh& mesh, const Original& original, const Ring& ring) {
     const std::span<const float> positions = upload.model.positions;
@@ -151,7 +151,7 @@ Result<void> upload_lines(const Upload& upload, GpuMesh& mesh, std::span<const s
     return put(upload, mesh.lines, "lines", std::span<const std::uint32_t>(lines), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
-/// Uploads texture coordinates and colors of the vertices. `original(i)` is the mesh's vertex at place i.
+/// Uploads texture coordinates and colors of the vertices. `original(i)` is the mesh vertex of uploaded vertex i.
 template <class Original>
 Result<void> upload_shading(const Upload& upload, GpuMesh& mesh, const Original& original) {
     static_assert(sizeof(Shading) == LR_SHADING_WORDS * sizeof(std::uint32_t));
@@ -170,7 +170,7 @@ Result<void> upload_shading(const Upload& upload, GpuMesh& mesh, const Original&
         });
 }
 
-/// Uploads vertices, lines, shading and classes. `original(i)` is the mesh's vertex at place i.
+/// Uploads vertices, lines, shading and classes. `original(i)` is the mesh vertex of uploaded vertex i.
 template <class Original, class TriangleOf>
 Result<void> upload_rest(const Upload& upload, GpuMesh& mesh, std::span<const std::uint32_t> order,
                          const Original& original, const TriangleOf& triangle_of) {

@@ -53,7 +53,7 @@ using Words = std::span<const std::uint32_t>;
 struct Interface {
     std::uint32_t stage = ~0U;
     std::set<std::uint32_t> capabilities;
-    /// Maps a place ("binding 3", "input 0", "push constants") to a text that describes its type.
+    /// Maps an interface slot ("binding 3", "input 0", "push constants") to a text that describes its type.
     std::map<std::string, std::string> places;
 };
 
@@ -153,7 +153,7 @@ bool Module::is_built_in(std::uint32_t type) const {
     return false;
 }
 
-/// Names a variable's place in the interface; empty if the variable is no part of it.
+/// Names a variable's interface slot; empty if the variable is not part of the interface.
 std::string Module::place(std::uint32_t variable, std::uint32_t storage) const {
     const auto with = [&](std::string text, Decoration which, const char* more = "") {
         const std::uint32_t* number = decoration(variable, which);

@@ -29,7 +29,7 @@ using Marks = std::vector<std::uint8_t>;
 void mark(Marks& marks, const Picture& a, const Picture& b, std::uint8_t bit) {
     for (std::size_t i = 0; i < a.pixels(); ++i) {
         const bool colour = !std::equal(&a.rgba[4 * i], &a.rgba[4 * i] + 4, &b.rgba[4 * i]);
-        // Where triangles coincide, raw pictures may show another one: there, only colors count.
+        // Where triangles coincide, raw pictures may show different triangles: there, only colors are compared.
         if (colour || (bit == 1 && a.triangles[i] != b.triangles[i]))
             marks[i] = static_cast<std::uint8_t>(marks[i] | bit);
     }

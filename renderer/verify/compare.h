@@ -70,7 +70,7 @@ struct Comparison {
 /// difference; its indices must be in range (validate_lean, validate_packed). Memory: twelve pictures.
 Result<std::vector<Comparison>> compare(Context& context, const Model& model, std::span<const Subject> subjects,
                                         const CompareOptions& options);
-/// The same with an existing renderer, whose pipelines serve many models.
+/// Compares with an existing renderer, so that many models can use its pipelines.
 Result<std::vector<Comparison>> compare(Renderer& renderer, const Model& model, std::span<const Subject> subjects,
                                         const CompareProgress& progress = {});
 inline Result<Comparison> compare(Context& context, const Model& model, const Subject& subject,

@@ -51,7 +51,8 @@ struct Access {
 /// Makes writes of `before` visible to `after`, for all buffers.
 void memory_barrier(VkCommandBuffer commands, Access before, Access after);
 
-/// The same for one image, with a layout transition. A transition from VK_IMAGE_LAYOUT_UNDEFINED drops the contents.
+/// Makes writes of `before` to one image visible to `after`, and changes its layout. A transition from
+/// VK_IMAGE_LAYOUT_UNDEFINED drops the contents.
 void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, Access before, Access after,
                    VkImageLayout from, VkImageLayout to);
 

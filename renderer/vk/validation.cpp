@@ -7,7 +7,7 @@ namespace {
 
 /// True for messages that do not report a fault of this program.
 bool is_noise(const VkDebugUtilsMessengerCallbackDataEXT& data) {
-    // The loader's messages (a driver that another driver hides, for example) are about the machine.
+    // The loader's messages concern the machine, not this program: for example, a driver that hides another one.
     if (data.pMessageIdName != nullptr && std::strcmp(data.pMessageIdName, "Loader Message") == 0) return true;
     // `invariant gl_Position` decorates a member of gl_PerVertex. Vulkan allows this (VUID-Invariant-Invariant-04677),
     // but the SPIR-V validator in layer version 1.3.239 warns about it.

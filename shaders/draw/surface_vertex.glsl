@@ -24,7 +24,7 @@ vec3 ring_colour(float t) {
     return mix(stops[i], stops[i + 1], x - float(i));
 }
 
-// position: in the source's coordinates; ring: place along the rings in [0, 1], negative if on no ring; number: of the
+// position: in the source's coordinates; ring: position along the rings in [0, 1], negative if on no ring; number: of the
 // vertex, among the drawn vertices.
 SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring, uint number) {
     SurfaceVertex v;

@@ -153,7 +153,7 @@ uint lr_turned(LrOpLayout lr, uint c) {
     return lr_slot_corner(lr_ring_next(v), side, role == LR_ROLE_END ? LR_ROLE_START : role + 1u);
 }
 // The canonical number of a corner. Null for a corner of a border slot, which has no triangle.
-// Twice, for a triangle with three ring edges.
+// A triangle with three ring edges has three copies, so lr_turned is applied twice.
 uint lr_canonical(LrOpLayout lr, uint c) { return lr_turned(lr, lr_turned(lr, c)); }
 
 // c.v

@@ -153,7 +153,7 @@ fn lr_turned(lr: LrOpLayout, c: u32) -> u32 {
   return lr_slot_corner(lr_ring_next(v), side, select(role + 1u, LR_ROLE_START, role == LR_ROLE_END));
 }
 // The canonical number of a corner. Null for a corner of a border slot, which has no triangle.
-// Twice, for a triangle with three ring edges.
+// A triangle with three ring edges has three copies, so lr_turned is applied twice.
 fn lr_canonical(lr: LrOpLayout, c: u32) -> u32 { return lr_turned(lr, lr_turned(lr, c)); }
 
 // c.v

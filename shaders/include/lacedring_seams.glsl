@@ -247,7 +247,8 @@ LrSeamHomes lr_seam_homes(uvec3 t) {
     h.steps = h.count - 1u + (entry & 1u);
     return h;
 }
-uint lr_seam_place(LrSeamHomes h, uint j, uint position) {  // the word that stands for a position of corner j's vertex
+// The word of a position of corner j's vertex. LR_SEAM_LAST marks the position past the last home copy.
+uint lr_seam_place(LrSeamHomes h, uint j, uint position) {
     return position == h.count[j] ? h.first[j] | LR_SEAM_LAST : h.first[j] + position;
 }
 
@@ -257,8 +258,8 @@ struct LrSeamEnd {
     uint position;  // its position in the parent, if not private
     bool is_private;
     uint far;     // the position at which the fan ends
-    // On the left: 0 only one position, 1 at `far`, 2 can still reach `far`, 3 cannot.
-    // On the right: 0 only one position, 1 at `far`, 2 not at `far`.
+    // The end's class: 0 the vertex has only one position; 1 the end is at `far`; else 2 on the right. On the left, else
+    // 2 if the end can still reach `far`, 3 if it cannot.
     uint type;
     uint fan;     // number of the fan's triangles from this one on, at most 3
 };
@@ -290,7 +291,7 @@ struct LrSeamQuestion {
     uint new_context;
     bool new_first;  // its flag is read before that of the position
 };
-// The question for an end of the shared edge whose copy changes.
+// The question about the new copy at end e of the shared edge.
 LrSeamQuestion lr_seam_change(LrSeamEnd e, uint steps, uint side) {
     LrSeamQuestion q = LrSeamQuestion(e.far, LR_SEAM_STEP_L, LR_SEAM_NEW_L, false);
     if (side == 0u) {

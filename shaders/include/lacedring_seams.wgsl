@@ -263,7 +263,7 @@ fn lr_seam_homes(t: vec3u) -> LrSeamHomes {
   let count = (end >> vec3u(1u)) - first;
   return LrSeamHomes(first, count, count - 1u + (entry & vec3u(1u)));
 }
-// The word that stands for a position of corner j's vertex.
+// The word of a position of corner j's vertex. LR_SEAM_LAST marks the position past the last home copy.
 fn lr_seam_place(h: LrSeamHomes, j: u32, position: u32) -> u32 {
   return select(h.first[j] + position, h.first[j] | LR_SEAM_LAST, position == h.count[j]);
 }
@@ -274,8 +274,8 @@ struct LrSeamEnd {
   position: u32,  // its position in the parent, if not private
   is_private: bool,
   far: u32,    // the position at which the fan ends
-  // On the left: 0 only one position, 1 at `far`, 2 can still reach `far`, 3 cannot.
-  // On the right: 0 only one position, 1 at `far`, 2 not at `far`.
+  // The end's class: 0 the vertex has only one position; 1 the end is at `far`; else 2 on the right. On the left, else
+  // 2 if the end can still reach `far`, 3 if it cannot.
   class_: u32,
   fan: u32,    // number of the fan's triangles from this one on, at most 3
 }
@@ -311,7 +311,7 @@ struct LrSeamQuestion {
   new_context: u32,
   new_first: bool,  // its flag is read before that of the position
 }
-// The question for an end of the shared edge whose copy changes.
+// The question about the new copy at end e of the shared edge.
 fn lr_seam_change(e: LrSeamEnd, steps: u32, side: u32) -> LrSeamQuestion {
   var q = LrSeamQuestion(e.far, LR_SEAM_STEP_L, LR_SEAM_NEW_L, false);
   if (side == 0u) {

@@ -31,8 +31,8 @@ struct LrVertexLayout {
     uint bits;        // octahedral: bits per integer
     uint exceptions;  // number of exceptions, which follow the parameters, two words each
     uint field_bits;
-    uint table;  // first word of it
-    uint data;   // first word of it
+    uint table;  // first word of the table of groups
+    uint data;   // first word of the blocks
 };
 
 #ifndef LR_VERTEX_MAPPING

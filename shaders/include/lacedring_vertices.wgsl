@@ -28,8 +28,8 @@ struct LrVertexLayout {
   bits: u32,        // octahedral: bits per integer
   exceptions: u32,  // number of exceptions, which follow the parameters, two words each
   field_bits: u32,
-  table: u32,  // first word of it
-  data: u32,   // first word of it
+  table: u32,  // first word of the table of groups
+  data: u32,   // first word of the blocks
 }
 
 fn lr_vertex_exceptions() -> u32 { return LR_VERTEX_HEADER_WORDS + 2u * LR_VERTEX_COMPONENTS; }
@@ -178,7 +178,7 @@ fn lr_vertex_block(p: LrVertexLayout, block: u32, most: u32) {
     }
     low_at += taken;
     if (n == 3u && axis < 3u) {
-      const x = min(0u, n - 1u);  // also compiled, without effect, for one or two components
+      const x = min(0u, n - 1u);  // compiled for one and two components, too, where it has no effect
       const y = min(1u, n - 1u);
       const z = min(2u, n - 1u);
       let u = select(select(residual[x], residual[z], axis == 1u), residual[y], axis == 0u);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """test_vertices.py LACEDRING CC HEADERS: compiles lacedring_vertices.h with and without vectors (LACEDRING_PLAIN); with AVX2 it
-decodes eight blocks at once. Both accept the same streams and mutations, report the same fault at the same place, and decode the
+decodes eight blocks at once. Both accept the same streams and mutations, report the same fault at the same position, and decode the
 same values, which vertex_reader.py (docs/vertex-format.md) confirms."""
 
 import array

@@ -1,5 +1,5 @@
 /* Decodes vertex streams from standard input, each preceded by its number of words. Prints a line for each: a checksum
-   of the decoded bytes, or "no", the fault and its place. */
+   of the decoded bytes, or "no", the fault and its position. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>

@@ -54,7 +54,7 @@ class Info(CliTest):
         self.info(CUBE + inner, faces, smesh=False, smesh_reason="2 shells", volume=0.875, inside_out_shells=1, closed=True)
 
     def test_doubles_far_away(self):
-        # 2^40 + 1/8 is no float.
+        # 2^40 + 1/8 is not a float.
         small = [tuple(0.125 * x for x in p) for p in CUBE]
         self.info(moved(small, 2.0 ** 40), QUADS, smesh=True, volume=0.125 ** 3)
 

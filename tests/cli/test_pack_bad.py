@@ -140,7 +140,7 @@ class PackBad(CliTest):
         self.assertGreater(self.check_all(cases), len(cases) // 2)
 
     def test_wrong_packed_documents(self):
-        """Packed documents that are no JSON, or are packed scenes themselves."""
+        """Packed documents that are not JSON, or are packed scenes themselves."""
         packed = Packed(self.packed("--document", "packed"))
         cases = []
         for text in (b"", b"{", b"[]", b"7", b"{}", b"[" * 100000, json.dumps(packed.outer).encode(), bytes(10**8)):

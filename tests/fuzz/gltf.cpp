@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::string_view kMarker = ";base64,";
 
-/// Decodes up to the first character that is no base64 digit; sets `end` to its position.
+/// Decodes up to the first character that is not a base64 digit; sets `end` to its position.
 Bytes decode_base64(std::string_view text, std::size_t& end) {
     Bytes out;
     std::uint32_t bits = 0, held = 0;
@@ -42,7 +42,7 @@ std::string encode_base64(const Bytes& bytes) {
 void mutate_buffer(Bytes& buffer, std::size_t max_size, Random& random) {
     const std::size_t size = buffer.size();
     mutate_bytes(buffer, max_size);
-    if (random_below(random, 4) != 0) buffer.resize(size);  // mostly the length in the JSON
+    if (random_below(random, 4) != 0) buffer.resize(size);  // usually keep the length that the JSON gives
 }
 
 void mutate_json(Bytes& json, std::size_t max_size, Random& random) {

@@ -7,7 +7,8 @@ namespace lacedring::fuzz {
 /// base64, mutated and encoded again.
 void mutate_gltf(Bytes& bytes, std::size_t max_size, Random& random);
 
-/// The same; in a packed scene (docs/gltf) it also mutates the contents of its document, streams and coded views.
+/// Mutates a glTF file as mutate_gltf does. In a packed scene (docs/gltf), also mutates the contents of its document,
+/// streams and coded views.
 void mutate_scene(Bytes& bytes, std::size_t max_size, Random& random);
 
 /// The contents of a GLB's two chunks. Both are empty if the bytes do not begin like a GLB.

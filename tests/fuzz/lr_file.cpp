@@ -31,7 +31,7 @@ struct Section {
 constexpr std::uint32_t kAttribute = 2, kVertexOrder = 3, kCornerOrder = 4, kVertices = 8, kSeams = 9,
                         kPerCopy = 1U << 18;
 
-/// The format of a section's kind; lean for kinds that are no stream.
+/// The format of a section's kind; lean for kinds that are not streams.
 Format format_of(std::uint32_t kind) {
     return kind == 5 ? Format::lr : kind == 6 ? Format::lr_compact : kind == 7 ? Format::packed : Format::lean;
 }

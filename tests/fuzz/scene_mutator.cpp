@@ -62,7 +62,7 @@ struct Place {
 /// The parts of a packed GLB.
 class Scene {
   public:
-    /// Nothing if the bytes are no packed GLB.
+    /// Empty if the bytes are not a packed GLB.
     static std::optional<Scene> open(const Bytes& glb) {
         const GlbChunks chunks = split_glb(glb);
         Scene out;

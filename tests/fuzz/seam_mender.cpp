@@ -164,7 +164,7 @@ class SeamSection {
     /// 0, 1, -1, 2, -2, ...
     static int signed_of(int n) { return n % 2 == 0 ? -n / 2 : (n + 1) / 2; }
 
-    /// The place of the first error, also of one that cannot be mended.
+    /// The position of the first error, whether or not it can be mended.
     Place first_wrong() const {
         const Words section = words();
         const auto triangles = static_cast<std::uint32_t>(triangles_.size() / 3);

@@ -83,7 +83,7 @@ void mend_packed(Words& words) {
     }
 }
 
-/// Sets the number of VO* entries to the remaining words.
+/// Sets the header's number of VO* entries to the number of words that the other parts leave.
 void mend_lr(Words& words, std::uint64_t words_per_vertex) {
     constexpr std::size_t ring = 3, t0 = 4, star = 5, isolated = 6, copies = 7;
     const std::uint64_t others = kLrHeaderWords + words[ring] * words_per_vertex + std::uint64_t{6} * words[t0] +

@@ -95,7 +95,7 @@ struct SeamDecode : GpuTest {
         for (std::size_t k = 0; k < copies.size(); k += 3) {
             if (mesh.triangles[k] != UINT32_MAX) continue;
             std::fill_n(&copies[k], 3, 0);
-            // A lean slot without a triangle has vertices of the preceding one.
+            // A lean slot without a triangle repeats two vertices of the preceding triangle.
             const std::uint32_t a = k == 0 ? 0 : triangles[k - 2], b = k == 0 ? 0 : triangles[k - 1];
             triangles[k] = triangles[k + 1] = a;
             triangles[k + 2] = b;

@@ -48,7 +48,7 @@ class Tables:
         self.flags.append(flags)
 
     def add_word(self, word, index, tip):
-        """Adds a slot by its standard word. index: the place of an irregular slot's tip and opposites; None if `tip` is its tip."""
+        """Adds a slot by its standard word. index: where an irregular slot's tip and opposites begin in the extra words; None if `tip` is its tip."""
         s = len(self.kind)
         if word & SPECIAL:
             kinds = {0: REDUNDANT, WART: CLOSING, IRREGULAR: BORDER}

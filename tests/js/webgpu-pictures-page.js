@@ -91,7 +91,10 @@ window.pictures = async (url, {views, times = 0}) => {
   return out;
 };
 
-/** The same in WebGL2 with flat shading: { covered, different: pixels, floats: differing words of positions }. */
+/**
+ * Draws the pictures in WebGL2 with flat shading. Returns { covered, different: pixels, floats: differing words of
+ * positions }.
+ */
 window.picturesGl2 = async (url) => {
   const load = async (from) => new Uint8Array(await (await fetch(from)).arrayBuffer());
   const gl = new OffscreenCanvas(WIDTH, HEIGHT).getContext("webgl2", {antialias: false});

@@ -36,7 +36,7 @@ def attribute(contents, name_length):
 
 
 def operators(tables):
-    """The vertex and opposite of each corner; null for numbers that are no corner."""
+    """The vertex and opposite of each corner; None for numbers that are not corners."""
     corners = Corners(tables)
     vertex, opposite = ([None] * (4 * (2 * tables.ring + tables.t0)) for _ in range(2))
     for t, triangle, _ in tables.triangles():

@@ -132,7 +132,7 @@ LatticePoints smooth(const StreamView& stream, const LatticePoints& points) {
     return lr != nullptr ? smooth(*lr, points) : smooth(*stream.get<LrStreamView<CompactLrView>>(), points);
 }
 
-/// The same, with the neighbors of an index list.
+/// Moves each vertex to the mean of its neighbors, kSteps times. Finds the neighbors in an index list.
 LatticePoints smooth(const Numbers& indices, LatticePoints points) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (std::size_t c = 0; c < indices.size(); ++c) {

@@ -22,7 +22,7 @@ namespace {
 /// Checks that star() and neighbors() of a border vertex begin at the border and continue in the order of swing.
 template <class Operators>
 void check_border_order(const CornerTable& table, const Operators& ops, const LrMap& map) {
-    // By vertex: the corner that is no other corner's swing.
+    // For each vertex, the corner that is not the swing of another corner.
     std::vector<CornerId> begin(table.vertex_count, kNullCorner);
     for (std::uint32_t i = 0; i < table.corners.size(); ++i) {
         const CornerId c{i};

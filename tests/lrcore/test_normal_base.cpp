@@ -217,7 +217,7 @@ TEST_CASE("normal base: normals of a surface take less, with and without seams")
         const Words without = storage::store_vertices(view, waves.triangles).value();
         const Words with = test::check_stored_by_places(waves.normals, waves.triangles, waves.where());
         CHECK(3 * with.size() < 2 * without.size());
-        // Normals stored without a base need no places to restore; given places do not matter.
+        // Normals stored without a base are restored without positions; positions that are given are ignored.
         CHECK(storage::restore_vertices(without, waves.triangles, view.vertices, 1 << 20, waves.where()));
     }
 }

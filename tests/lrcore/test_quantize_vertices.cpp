@@ -31,7 +31,7 @@ std::vector<float> random_directions(std::size_t count, bool has_w, std::uint32_
         for (std::size_t c = 0; c < 3; ++c) {
             v[c] = i < 27 ? static_cast<double>(i / (c == 0 ? 1 : c == 1 ? 3 : 9) % 3) - 1 : normal(random);
         }
-        if (i == 13) v[2] = 1;  // in the place of (0, 0, 0)
+        if (i == 13) v[2] = 1;  // instead of (0, 0, 0)
         const double length = std::hypot(v[0], v[1], v[2]);
         for (const double x : v) out.push_back(static_cast<float>(x / length));
         if (has_w) out.push_back(random() % 2 == 0 ? 1.0F : -1.0F);

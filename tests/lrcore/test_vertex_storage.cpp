@@ -287,7 +287,7 @@ TEST_CASE("vertex storage: streams that our encoder does not write are restored,
         stream[7] -= 1;  // low
         const std::uint32_t bits = stream[8] & 63;
         REQUIRE(bits == 0);
-        // A block is a bit per predictor, 2 bits s, then the F bits of this component.
+        // A block begins with a bit per predictor, then 2 bits for s, then F bits for this component.
         stream[8] |= 1;
         Words bits_of(stream.end() - 3, stream.end());
         bits_of[0] = 1U << 6;

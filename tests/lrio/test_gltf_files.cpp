@@ -78,7 +78,7 @@ TEST_CASE("glTF: only regular files are opened, and no URI with a scheme") {
         CHECK(!read_named(folder() / "a.gltf", triangle_in(uri), outside));
     }
     fs::remove(pipe);
-    // The same holds for the path of the mesh.
+    // The path of the mesh, too, must name a regular file.
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     for (const char* path : {pipe.c_str(), "/dev/zero", "/dev/null", "/proc/self/environ", "/proc/self/status"}) {
         CAPTURE(path);

@@ -266,7 +266,8 @@ TEST_CASE("the Moebius strip has one border and is not orientable") {
         check_manifold(s, mesh);
         CHECK(s.border_loops == 1);
         CHECK(s.euler == 0);
-        // Flipping triangles does not help: a surface with one border loop and Euler characteristic 0 is no annulus.
+        // Flipping triangles does not help: a surface with one border loop and Euler characteristic 0 is not an
+        // annulus.
         CHECK(s.inconsistent > 0);
     }
 }

@@ -44,9 +44,9 @@ Shape subdivide(const Shape& shape);
 Shape stack_all(const Shape& shape);
 /// Adds a vertex in the middle of a random triangle, `count` times.
 Shape stack_random(Shape shape, std::uint32_t count, std::uint64_t seed);
-/// Adds `count` vertices, each in a triangle at the one before.
+/// Adds `count` vertices, each in a triangle at the previous vertex.
 Shape stack_spiral(Shape shape, std::uint32_t count);
-/// Both shapes, not connected.
+/// The union of both shapes, without a common vertex.
 Shape beside(const Shape& a, const Shape& b);
 /// Replaces vertex `from` by `to`, which pinches the surface. `from` is then unused.
 Shape pinch(Shape shape, std::uint32_t from, std::uint32_t to);

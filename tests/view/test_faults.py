@@ -100,7 +100,7 @@ class Faults(driver.Scripted):
             _, said, seconds = self.slow(script, slow)
             self.assertEqual(said, "")
             self.assertLess(seconds, SOON)
-        # The same holds for a folder of shaders on such a disk.
+        # The viewer does not wait for a folder of shaders on a slow disk either.
         shaders = self.path("glsl")
         shutil.copytree(SOURCES, shaders)
         _, said, seconds = self.faulty("frames 20", "--shaders", shaders, FAULT_SLOW_FILE="/surface.frag")

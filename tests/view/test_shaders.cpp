@@ -1,4 +1,4 @@
-// Tests compiling shaders at run time: the words equal the build's, errors have a place, and interfaces must not
+// Tests compiling shaders at run time: the words equal the build's, errors name a position, and interfaces must not
 // change. Needs no device and no window.
 #include <doctest/doctest.h>
 

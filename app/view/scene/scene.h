@@ -147,7 +147,7 @@ class Scene {
     std::shared_ptr<const OwningModel> adopting_;                           // the model to switch to
 
     VkExtent2D extent_{};
-    /// The pictures of one number of samples.
+    /// The pictures drawn with a given number of samples per pixel.
     struct Sides {
         std::optional<gpu::Target> targets[2];
         VkDescriptorSet sets[2] = {};  ///< for composing one picture; two

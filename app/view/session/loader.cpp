@@ -377,7 +377,7 @@ void Loader::Job::show_stand_in(const app::LoadedMesh& loaded) {
     document.mesh = std::make_shared<const Mesh>(std::move(mesh));
     document.surface = std::move(surface);
     if (!make(document, std::make_shared<const Materials>(), false))
-        // The same error will come from the mesh itself.
+        // Loading the mesh itself will report this error.
         return;
 }
 

@@ -11,7 +11,8 @@ namespace lacedring::view {
 
 class Controls {
   public:
-    /// Passes the actions of an event, whose places are in pixels of the picture, to `perform`. `up`: the camera's.
+    /// Passes the actions of an event to `perform`. The event's position is in pixels of the picture. `up`: the
+    /// camera's up direction.
     void handle(const Event& event, const State& state, VkExtent2D extent, const Vector& up,
                 const std::function<void(Action)>& perform);
 

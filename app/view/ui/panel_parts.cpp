@@ -41,7 +41,7 @@ std::string bytes_text(std::uint64_t bytes) {
 std::string elided(std::string_view text, float room) {
     if (width_of(text) <= room) return std::string(text);
     std::string out;
-    // Keep as many bytes of both ends as fit: the ends of a file name tell more than its middle.
+    // Keep as many bytes of both ends as fit: the ends of a file name say more than its middle.
     std::size_t low = 0, high = text.size();
     while (low < high) {
         const std::size_t kept = (low + high + 1) / 2;

@@ -45,7 +45,7 @@ std::string elided(std::string_view text, float room);
 std::string broken(std::string_view text, float room);
 /// Draws a heading above a part of a panel.
 void heading(const char* text, const char* explained = nullptr);
-/// Shows a tooltip while the mouse is over the last item.
+/// Shows `text` as a tooltip while the mouse is over the item drawn last.
 void explain(const char* text);
 
 }  // namespace lacedring::view

@@ -25,7 +25,7 @@ struct Choices {
     Shown shown;
     /// A view was chosen; else files with materials are shown with them.
     bool view_chosen = false;
-    /// Place of the divider, as a fraction of the picture's width.
+    /// Position of the divider, as a fraction of the picture's width.
     double divider = 0.5;
     RingSettings ring;
     Weld weld = Weld::position;

@@ -366,7 +366,7 @@ void Viewer::take_document() {
     if (other && !same_file) {
         tell_error(perform(action::FrameAll{options_.camera}));
         const Vector up = options_.camera.up;
-        // It was for the first mesh; keep only its up.
+        // The camera of the options is for the first mesh; later meshes keep only its up direction.
         options_.camera = {};
         options_.camera.up = up;
     }

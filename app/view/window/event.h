@@ -29,7 +29,7 @@ enum Key : int {
 
 enum Modifier : unsigned { mod_shift = 1, mod_control = 2, mod_alt = 4 };
 
-/// x and y are a place in pixels from the window's upper left corner, a size (resize), or steps (scroll).
+/// x and y are a position in pixels from the window's upper left corner, a size (resize), or steps (scroll).
 struct Event {
     enum Kind { key, text, move, button, scroll, drop, resize, close, refresh } kind = refresh;
     /// A Key, a mouse button (0 left, 1 right, 2 middle), or a Unicode character.

@@ -74,7 +74,7 @@ export async function decodeFloats(coded, size) {
   const row = new Int32Array(width);  // codes
   const line = new Float32Array(1), lineBits = new Int32Array(line.buffer);
 
-  /** Predicts the rank at place `at` from the two floats before it in its column. */
+  /** Predicts the rank of float `at` from the two floats before it in its column. */
   const expect = (at) => {
     if (at < width) return 0x80000000 | 0;
     if (at < 2 * width) return rankOf(bits[at - width]);

@@ -34,8 +34,8 @@ function sortTriangles(cornerOrder) {
 }
 
 /**
- * The set of each vertex and its place in the set, for a stream that keeps the order, in which the sets follow each
- * other.
+ * The set of each vertex and its index in the set, for a stream that keeps the order. There, the vertices of a set are
+ * consecutive.
  */
 function placeInOrder({vertexCount, vertexOrder}, counts) {
   if (counts.some((count) => count === undefined)) refuse("an ordered stream, and a set without a count");
@@ -51,7 +51,10 @@ function placeInOrder({vertexCount, vertexOrder}, counts) {
   return {setOf, place: vertexOrder.map((number, v) => number - firstOf[setOf[v]]), counts};
 }
 
-/** The same for a stream that does not keep the order: a vertex belongs to the set of its triangles. */
+/**
+ * The set of each vertex and its index in the set, for a stream that does not keep the order. A vertex belongs to the
+ * set of its triangles.
+ */
 function placeByTriangles({vertexCount, indices}, stream, partOf) {
   const none = 0xffffffff, setOf = new Uint32Array(vertexCount).fill(none), place = new Uint32Array(vertexCount);
   indices.forEach((v, i) => {

@@ -121,7 +121,7 @@ async function decodeStream(stream, json, views, decodeMesh, budget) {
   const file = await views.stored(stream.view);
   const mesh = await decodeMesh(file, {limits: {maxMemory: budget.left}});
   const {indices, attributes, vertexCount} = mesh;
-  // Twice: as decoded, and as split into sets.
+  // The indices and attributes are in memory twice: as decoded, and as split into sets.
   budget.take(
     2 * (indices.byteLength + attributes.reduce((sum, {values}) => sum + values.byteLength, 0)) + 16 * vertexCount);
   const triangles = indices.length / 3;

@@ -68,7 +68,8 @@ std::optional<Doubles> find_doubles(const CornerTable& table) {
             out.doubles.push_back({order[i], order[first], static_cast<std::uint32_t>(i - first), turned});
         }
     }
-    // Not more doubles than other triangles, so that a stream's size bounds the size of its decoded triangles.
+    // A stream has at most as many doubles as other triangles, so that a stream's size bounds the size of its decoded
+    // triangles.
     out.doubles.resize(
         std::min<std::size_t>(out.doubles.size(), (table.triangle_count() - table.topology.degenerate) / 2));
     if (out.doubles.size() < kFewest) return {};
@@ -91,7 +92,7 @@ std::optional<Doubles> find_doubles(const CornerTable& table) {
 
 void add_doubles(EncodedPacked& stream, const Doubles& doubles) {
     const auto own = static_cast<std::uint32_t>(stream.triangle_order.size());
-    std::vector<std::uint32_t> place;  // place in the stream of each mesh triangle that is no double
+    std::vector<std::uint32_t> place;  // index in the stream of each mesh triangle that is not a double
     for (std::uint32_t i = 0; i < own; ++i) {
         std::uint32_t& t = stream.triangle_order[i];
         t = doubles.triangle[t];

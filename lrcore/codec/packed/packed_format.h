@@ -1,5 +1,5 @@
-// Constants of the packed stream, included by C++ and GLSL. docs/packed-format.md specifies the format. An own triangle
-// is a triangle that is no double.
+// Constants of the packed stream, included by C++ and GLSL. docs/packed-format.md specifies the format. A "double"
+// has the same vertices as an earlier triangle; "own" triangles are all others.
 //
 // A stream is LR_PACKED_HEADER_WORDS header words, and then, all little-endian u32:
 //     turn bits    one bit per own triangle, LR_PACKED_BLOCK_WORDS words per block; the last block has fewer
@@ -58,7 +58,7 @@
 // format".
 #define LR_PACKED_EVENT_CODES 7u
 #define LR_PACKED_SPLIT 0u  // at its triangle: a T0; the polygon's smaller part comes next
-// Before its triangle: a corridor that begins near the place where the previous corridor began or ended.
+// Before its triangle: a corridor that begins near the beginning or the end of the previous corridor.
 #define LR_PACKED_BESIDE 1u
 #define LR_PACKED_START 2u  // before its triangle: another corridor
 #define LR_PACKED_FAR 3u    // at its triangle: any third vertex

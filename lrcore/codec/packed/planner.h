@@ -30,8 +30,8 @@ class CorridorSteps {
     PackedEdge edge(std::uint32_t i) const { return {number(facing(i, true)), number(facing(i, false))}; }
     std::uint32_t third(std::uint32_t i) const { return number(corridors_.corners[i]); }
 
-    /// The step that enters the triangle across (a, x) of triangle i if `a`, else across (x, b); UINT32_MAX if none
-    /// does.
+    /// The later step that enters the neighbor of triangle i across its edge (a, x) if the argument `a` is true, else
+    /// across (x, b). UINT32_MAX if there is none.
     std::uint32_t across(std::uint32_t i, bool a) const {
         const CornerId o = table_.opposite(facing(i, !a));
         if (o.is_null()) return UINT32_MAX;

@@ -26,8 +26,8 @@ std::uint32_t last_run(std::uint32_t run, std::uint32_t k) {
     return run | ((1U << (k - 1)) - 1);
 }
 
-/// Finds the codes of a block: calls code(place, class, run, last) for each run, which is written before answer
-/// `place`. Returns the total bits. Sets `end` to the place from which a reader infers all codes.
+/// Finds the codes of a block: calls code(i, class, run, last) for each run, which is written before answer
+/// i. Returns the total bits. Sets `end` to the first answer from which on a reader infers all codes.
 template <class Code>
 std::uint64_t find_codes(std::span<const SeamAnswer> answers, const SeamTable& table, std::size_t& end, Code code) {
     struct Run {

@@ -15,10 +15,10 @@ namespace lacedring {
 
 constexpr std::uint32_t kSeamContexts = LACEDRING_SEAM_CONTEXTS;
 
-/// An answer: a flag of a context, or raw bits.
+/// An answer: a flag, coded by the likely value and the class of its context, or raw bits.
 struct SeamAnswer {
     std::uint32_t value;
-    std::uint8_t context;  ///< kSeamContexts: raw bits
+    std::uint8_t context;  ///< kSeamContexts if the answer is raw bits
     std::uint8_t bits;
 };
 

@@ -221,7 +221,7 @@ class BlockCoder {
 
     using WidthModels = std::array<BitModel, 4>;
 
-    /// Also sets `width` to the run's width.
+    /// Codes the choice of a run's width, and sets `width` to that width. Returns false if the choice is invalid.
     bool code_width(WidthModels& models, BlockChoices::Width& w, std::uint32_t& width) {
         std::uint32_t code = 0;
         if (coder_.bit(models[0], w.code != kUnchanged ? 1 : 0) != 0) {

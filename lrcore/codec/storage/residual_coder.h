@@ -55,7 +55,7 @@ class ResidualCoder {
     };
 
     /// Codes one residual. Its lowest bits are raw. A symbol codes the rest: a number up to 3, or a range of numbers;
-    /// the place in the range is raw. Sets `level` to the residual's size.
+    /// the offset in the range is raw. Sets `level` to the residual's size.
     LACEDRING_INLINE std::uint32_t code(Coder& coder, Role& role, std::uint32_t step, std::uint32_t value,
                                         std::uint32_t& level) {
         step = std::min(step, kSteps - 1);

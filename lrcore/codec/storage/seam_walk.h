@@ -237,7 +237,7 @@ class SeamWalk {
     std::vector<std::uint32_t> copies_;
     std::uint32_t count_;
     std::vector<Status> status_;
-    // Per vertex: number of its edges that are seams at their other end, at most 2.
+    // For each vertex v, the number of edges (u, v) that were found to be seams at u; at most 2.
     std::vector<std::uint8_t> seams_;
     std::vector<std::uint32_t> stack_;
     bool bad_ = false;

@@ -31,7 +31,7 @@ class StoredVertices {
     /// input: safe.
     static Result<StoredVertices> read(std::span<const std::uint32_t> stored, std::uint32_t vertices);
 
-    /// Does restore() need places?
+    /// Does restore() need positions?
     bool needs_places() const;
 
     /// The vertex stream, bit for bit, of at most `most_words` words. It is not validated and may be invalid if

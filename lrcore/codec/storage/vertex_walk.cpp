@@ -58,10 +58,10 @@ struct Facing {
     std::uint32_t corner, smaller, larger;
 };
 
-/// Pairs corners by their edges, for any edges.
+/// Pairs `corners` whose opposite edges are equal. The edges may be in any order.
 void join_others(std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                  std::span<const std::uint32_t> corners, std::span<std::uint32_t> opposite) {
-    // Sorts them by the smaller end of their edges.
+    // Sorts the corners by the smaller end of the opposite edge.
     std::vector<std::uint32_t> begin(std::size_t{vertices} + 1, 0);
     const auto facing = [&](std::uint32_t corner) {
         const std::uint32_t first = corner - corner % 3, k = corner - first;

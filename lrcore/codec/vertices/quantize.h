@@ -24,7 +24,7 @@ struct VertexIntegers {
 Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptions& options);
 
 /// Converts floats to decimals, with the number of digits that is estimated to give the smallest stream; none if too
-/// many values are no decimals. `values` must be accepted by to_integers. Cost: O(V).
+/// many values are not decimals. `values` must be accepted by to_integers. Cost: O(V).
 std::optional<VertexIntegers> to_decimals(const VertexValues& values);
 
 }  // namespace lacedring

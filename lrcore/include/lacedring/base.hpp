@@ -27,7 +27,8 @@ enum class ErrorCode : int {
 /// Codes from this value on are free for a program's own errors; the library never uses them.
 constexpr int kFirstOwnErrorCode = 1000;
 
-/// What went wrong. `message` is one line: the place and the cause, without the file's name (the caller knows it).
+/// What went wrong. `message` is one line: the position in the file and the cause, without the file's name (the caller
+/// knows it).
 struct Error {
     ErrorCode code;
     std::string message;

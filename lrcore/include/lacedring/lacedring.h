@@ -168,8 +168,8 @@ uint32_t lacedring_right(const struct lacedring_tables* tables, uint32_t corner)
 uint32_t lacedring_swing(const struct lacedring_tables* tables, uint32_t corner);
 /* v.c; null if no triangle uses v. */
 uint32_t lacedring_corner_of_vertex(const struct lacedring_tables* tables, uint32_t v);
-/* The vertex that v is a copy of, or v itself if it is no copy. A non-manifold vertex has a copy for each further fan
-   of triangles. O(log copies). */
+/* The vertex that v is a copy of, or v itself if it is not a copy. A non-manifold vertex has a copy for each further
+   fan of triangles. O(log copies). */
 uint32_t lacedring_original(const struct lacedring_tables* tables, uint32_t v);
 /* Is v on a border? O(valence). */
 int lacedring_is_border(const struct lacedring_tables* tables, uint32_t v);

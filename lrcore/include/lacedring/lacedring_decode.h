@@ -1820,7 +1820,7 @@ static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out
     out[2] = turned ? b : c;
 }
 
-/* Writes all doubles after the own triangles. */
+/* Writes the doubles, which follow the stream's own triangles. */
 static void lacedring_write_doubles_(const struct lacedring_packed* p, uint32_t* triangles) {
     uint32_t run, i;
     for (run = 0; run < p->runs; ++run) {

@@ -501,7 +501,7 @@ static struct lacedring_seam_end_ lacedring_seam_end_of_(const struct lacedring_
     return e;
 }
 
-/* The question about an end that changes. */
+/* Returns the question about the new copy at end e of the shared edge. */
 static struct lacedring_seam_question_ lacedring_seam_change_(const struct lacedring_seam_walk_* w, uint32_t side,
                                                               const struct lacedring_seam_end_* e) {
     struct lacedring_seam_question_ q = {e->far, LACEDRING_SEAM_STEP_L, LACEDRING_SEAM_NEW_L, 0};
@@ -589,7 +589,7 @@ static struct lacedring_seam_question_ lacedring_seam_start_(const struct lacedr
         q.at_context = steps > 0 ? LACEDRING_SEAM_MID_R2 : LACEDRING_SEAM_MID_R;
         q.new_context = steps > 0 ? LACEDRING_SEAM_NEW_M : LACEDRING_SEAM_NEW_R;
         for (n = 0; n < 2 && has_parent; ++n) {
-            /* Is there a seam along the ring edge to this neighbor? Its state tells. */
+            /* There is no seam along the ring edge to this neighbor if the neighbor has its outermost home copy. */
             const uint32_t neighbor = n == 0 ? before : after, o = 3 * i + neighbor;
             if (neighbor == 3) continue;
             if (lacedring_seam_copy_(w, o, w->state[o]) == lacedring_seam_copy_(w, o, n == 0 ? w->steps[o] : 0)) {

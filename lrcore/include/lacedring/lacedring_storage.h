@@ -507,7 +507,8 @@ LACEDRING_HOT_ void lacedring_open_edge_(struct lacedring_steps_* w, uint32_t a,
     w->open[w->open_count++] = b;
 }
 
-/* Decodes the third vertex of a step that is no turn, and opens the edges it enters. The vertex may be out of range. */
+/* Decodes the third vertex of a step that is not a turn, and opens the edges it enters. The vertex may be out of range.
+ */
 static uint32_t lacedring_fork_(struct lacedring_steps_* w, uint32_t a, uint32_t b) {
     struct lacedring_coded* d = &w->coded;
     const uint32_t kind = lacedring_coded_symbol_(d, &w->fork), enters = kind & 3;
@@ -911,8 +912,8 @@ LACEDRING_HOT_ void lacedring_look_across_(struct lacedring_walk_* w, uint32_t c
     }
 }
 
-/* The next corner of a vertex's list, or LACEDRING_NONE_. It is in the word of this corner's opposite corner, which is
-   not needed any more. */
+/* The next corner of a vertex's list, or LACEDRING_NONE_. The entry of the opposite corner, which is not needed any
+   more, stores it. */
 LACEDRING_HOT_ uint32_t lacedring_corner_behind_(const struct lacedring_walk_* w, uint32_t corner) {
     return w->opposite[w->opposite[corner]];
 }
@@ -1003,7 +1004,8 @@ LACEDRING_COLD_ uint32_t lacedring_walk_some_(struct lacedring_walk_* begin, str
     return (uint32_t)(visit - visits);
 }
 
-/* Places: positions less the least coordinates, scaled to 20 bits, so that products of three are exact as doubles. */
+/* "Places" are the positions less the least coordinates, scaled to 20 bits, so that products of three are exact as
+ * doubles. */
 struct lacedring_places_ {
     const struct lacedring_positions* positions;
     uint32_t low[3], shift;
@@ -1025,7 +1027,7 @@ static void lacedring_scale_places_(const struct lacedring_positions* positions,
     for (out->shift = 0; extent >> out->shift >= 1u << 20;) ++out->shift;
 }
 
-/* The place of element `value` of the attribute. */
+/* Sets out to the scaled position of element `value` of the attribute. */
 LACEDRING_HOT_ void lacedring_place_(const struct lacedring_places_* p, uint32_t value, double out[3]) {
     const uint32_t* of = p->positions->vertex_of;
     const uint32_t* at = p->positions->integers + 3 * (size_t)(of != NULL ? of[value] : value);

@@ -141,7 +141,7 @@ struct lacedring_seam_copies_ {
     uint32_t vertex_count;
     struct lacedring_seam_vertex_* vertices; /* one per vertex, and one more */
     uint32_t* own;                           /* corners of each vertex, in increasing order */
-    /* For each corner, a preliminary number of its copy: the vertex for its first copy, else a number that is no
+    /* For each corner, a preliminary number of its copy: the vertex for its first copy, else a number that is not a
        vertex. */
     uint32_t* copies;
     uint32_t count; /* copies so far */

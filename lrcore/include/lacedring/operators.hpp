@@ -120,8 +120,8 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
 
     const Store& store() const { return s_; }
 
-    /// The vertex that v is a copy of, or v itself if it is no copy. A non-manifold vertex has a copy for each further
-    /// fan of triangles; all other operators treat copies as separate vertices. O(log copies).
+    /// The vertex that v is a copy of, or v itself if it is not a copy. A non-manifold vertex has a copy for each
+    /// further fan of triangles; all other operators treat copies as separate vertices. O(log copies).
     VertexId original(VertexId v) const {
         return VertexId{LrStreamView<Store>{.view = {}, .copies = copies_}.original(v.value)};
     }
@@ -141,9 +141,9 @@ class Operators : public CornerWalks<Operators<Store>, 4> {
         return t.value >= 2 * ring_ || (s_.kind(t.value / 2, t.value % 2) & word::kSpecial) == 0;
     }
 
-    /// The canonical number of corner c; null for a corner of no triangle (a border slot).
+    /// The canonical number of corner c; null for a corner of a border slot, which has no triangle.
     CornerId canonical(CornerId c) const {
-        // Once, or twice if the triangle is the whole ring.
+        // Turns c once, or twice if the triangle has three ring edges.
         while (!is_t0(c)) {
             const Slot slot = slot_of(c);
             const std::uint32_t kind = s_.kind(slot.v, slot.side);

@@ -51,8 +51,8 @@ struct SeamView {
 Result<SeamView> view_seams(std::span<const std::uint32_t> words, std::uint32_t triangles, std::uint32_t vertices);
 
 /// Checks everything that decoders rely on, including the checksum, for `triangles` (three vertices each). Cost: O(T)
-/// time; 4 bytes per vertex and 4 per copy that is no home. Errors: malformed. Untrusted input, including triangles:
-/// safe.
+/// time; 4 bytes per vertex and 4 per copy that is not a home copy. Errors: malformed. Untrusted input, including
+/// triangles: safe.
 Result<SeamView> validate_seams(std::span<const std::uint32_t> words, std::span<const std::uint32_t> triangles,
                                 std::uint32_t vertices);
 
@@ -102,7 +102,7 @@ class CornerCopies {
     /// Both views must be valid, and their words must outlive the object. `seams` belongs to the slots of `stream`.
     CornerCopies(const StreamView& stream, const SeamView& seams);
 
-    /// The copy at vertex `place` (0, 1 or 2) of decode_triangle(stream, slot); UINT32_MAX if the slot is empty.
+    /// The copy at vertex number `place` (0, 1 or 2) of decode_triangle(stream, slot); UINT32_MAX if the slot is empty.
     std::uint32_t copy(std::uint32_t slot, std::uint32_t place);
 
     /// For LR tables: the copy at a corner of Operators on the stream; UINT32_MAX if the corner has no triangle. The

@@ -37,7 +37,7 @@ struct LrFile {
     std::vector<LrAttribute> attributes;  ///< in ring order; the first is POSITION, never per copy
     /// vertex_order[new] = old: of copies if the file has seams, else of vertices; empty unless kept.
     std::vector<std::uint32_t> vertex_order;
-    /// corner_order[i] = 3 * triangle + place: the corner of the input's index list with which the i-th decoded
+    /// corner_order[i] = 3 * triangle + k, k < 3: the corner of the input's index list with which the i-th decoded
     /// triangle begins; empty unless kept.
     std::vector<std::uint32_t> corner_order;
 };
@@ -46,8 +46,8 @@ struct LrFile {
 /// keeps the input's order, for 4 bytes a vertex and 4 bytes a triangle. Cost: O(T).
 LrFile make_lr_file(const Mesh& mesh, Encoded encoded, bool keep_order);
 
-/// The same for a mesh with seams. `encoded` is of the surface's triangles (surface_mesh). All copies of a vertex have
-/// its position (move_to_surface). An attribute whose copies agree at every vertex is stored per vertex. Cost and
+/// Makes the file of a mesh with seams. `encoded` is of the surface's triangles (surface_mesh). All copies of a vertex
+/// have its position (move_to_surface). An attribute whose copies agree at every vertex is stored per vertex. Cost and
 /// errors: as encode_seams.
 Result<LrFile> make_lr_file(const Mesh& mesh, const Surface& surface, Encoded encoded, bool keep_order);
 

@@ -54,8 +54,8 @@ struct ReadReport {
 Result<Mesh> read_mesh(const std::filesystem::path& path, const ReadOptions& options = {}, ReadReport* report = nullptr,
                        Materials* materials = nullptr);
 
-/// The same for a file in memory. `name` gives the extension and the folder of a glTF's buffers. If it is empty, the
-/// format is recognized by content only, and buffers in files are errors.
+/// Reads a mesh from a file in memory. `name` gives the extension and the folder of a glTF's buffers. If it is empty,
+/// the format is recognized by content only, and buffers in files are errors.
 Result<Mesh> read_mesh(std::span<const std::byte> bytes, const std::filesystem::path& name,
                        const ReadOptions& options = {}, ReadReport* report = nullptr, Materials* materials = nullptr);
 
@@ -71,7 +71,7 @@ using WriteNotes = std::vector<std::string>;
 Result<void> write_mesh(const Mesh& mesh, const std::filesystem::path& path, WriteNotes* notes = nullptr,
                         std::uint64_t* bytes = nullptr);
 
-/// The same to an open descriptor: GLB (MeshFormat::gltf), PLY or OBJ.
+/// Writes GLB (MeshFormat::gltf), PLY or OBJ to an open file descriptor.
 Result<void> write_mesh(const Mesh& mesh, MeshFormat format, int descriptor, WriteNotes* notes = nullptr,
                         std::uint64_t* bytes = nullptr);
 

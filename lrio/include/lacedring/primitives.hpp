@@ -52,7 +52,7 @@ struct PrimitiveList {
 Result<PrimitiveList> read_primitives(const std::filesystem::path& path, const ReadOptions& options = {},
                                       ReadReport* report = nullptr);
 
-/// The same for a file in memory; `name` as in read_mesh.
+/// Reads the primitives from a file in memory; `name` as in read_mesh.
 Result<PrimitiveList> read_primitives(std::span<const std::byte> bytes, const std::filesystem::path& name,
                                       const ReadOptions& options = {}, ReadReport* report = nullptr);
 
