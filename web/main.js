@@ -50,7 +50,7 @@ function showFigures(title, result, brotli) {
   showSizes(result, brotli);
   const rows = [
     ["triangles", count.format(triangles)], ["vertices", count.format(vertices)],
-    ...(images === undefined ? [["bits per triangle", (8 * ours.bytes / triangles).toFixed(1)]] : []),
+    ...(images === undefined ? [["bits per triangle, whole file", (8 * ours.bytes / triangles).toFixed(1)]] : []),
     ...(encodeMs ? [["encoding time", time(encodeMs)]] : [])
   ];
   numbers.replaceChildren(...rows.flatMap(

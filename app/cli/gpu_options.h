@@ -15,7 +15,8 @@ namespace lacedring::app {
 /// Adds --device, --device-memory and --validation.
 void add_device_options(CLI::App& command, gpu::ContextOptions& options);
 
-/// Whether any of them was given. Then a command that could work without a device must fail if there is none.
+/// Returns whether an option of the device was given. Then a missing device is an error, also for commands that could
+/// do without one.
 bool asks_for_device(const gpu::ContextOptions& options);
 
 /// A WIDTHxHEIGHT option.

@@ -34,10 +34,6 @@ std::string help_entry(const std::string& name, std::string_view description, st
     return out;
 }
 
-bool is_required(const CLI::Option* option) {
-    return option->get_required();
-}
-
 /// "-o, --output FILE", "MESH...", "--weld[=attributes|position]"
 std::string option_label(const CLI::Option* option) {
     if (!option->nonpositional()) {
@@ -60,10 +56,10 @@ std::string usage_line(const CLI::App& app, const std::string& name) {
     if (!app.get_subcommands({}).empty()) return out + " COMMAND [OPTIONS]\n";
     for (const CLI::Option* option : app.get_options()) {
         if (!option->nonpositional())
-            out += is_required(option) ? " " + option_label(option) : " [" + option_label(option) + "]";
+            out += option->get_required() ? " " + option_label(option) : " [" + option_label(option) + "]";
     }
     for (const CLI::Option* option : app.get_options()) {
-        if (!option->nonpositional() || !is_required(option)) continue;
+        if (!option->nonpositional() || !option->get_required()) continue;
         const bool is_short = !option->get_snames().empty();
         out += is_short ? " -" + option->get_snames()[0] : " --" + option->get_lnames()[0];
         out += " " + option->get_type_name();

@@ -20,7 +20,7 @@ std::string lower_extension(const fs::path& path) {
     return extension;
 }
 
-/// Whether the extension belongs to a known kind of file.
+/// Returns whether the extension belongs to a known kind of file.
 bool is_known(std::string_view extension) {
     constexpr std::string_view kKnown[] = {".lr",  ".glb", ".gltf", ".bin", ".obj",  ".mtl", ".ply",  ".off", ".stl",
                                            ".png", ".jpg", ".jpeg", ".bmp", ".tga",  ".gif", ".webp", ".svg", ".pdf",

@@ -59,7 +59,7 @@ struct DrawnScene {
     std::size_t placed = 0;      ///< primitives, counted once per node
     std::size_t mirrored = 0;    ///< placed ones whose node mirrors them
     std::size_t triangles = 0;   ///< in all placed primitives
-    /// How the drawn mesh differs; empty: it does not.
+    /// The first difference between the drawn mesh and the primitives; empty if there is none.
     std::string why;
 };
 
@@ -84,7 +84,7 @@ DrawnScene check_scene(const LoadedScene& scene, double tolerance) {
     return out;
 }
 
-/// Whether nearly nothing of the mesh is visible. This depends on the mesh only, so any result may be used.
+/// Returns whether the pictures show almost nothing of the mesh. All results agree on this.
 bool is_blank(std::span<const Compared> all) {
     return std::any_of(all.begin(), all.end(), [](const Compared& compared) { return compared.comparison.blank; });
 }

@@ -37,7 +37,7 @@ Result<void> write(const Mesh& mesh, const DecodeOptions& options, const fs::pat
     return write_mesh(mesh, path, &notes, &bytes);
 }
 
-/// Whether the mesh has joints, which refer to a scene's skin.
+/// Returns whether the mesh has joints. They index the skin of a scene, which the output does not have.
 bool has_skin(const Mesh& mesh) {
     return std::ranges::any_of(mesh.attributes, [](const Attribute& a) { return a.name.starts_with("JOINTS_"); });
 }

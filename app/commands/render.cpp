@@ -101,6 +101,7 @@ int render(const RenderOptions& options, const std::string& input, const std::fi
         if (device_bytes > kWorthSaying) {
             log.note(input_name(input),
                      fmt::format("drawing takes {:.1f} GB of device memory", static_cast<double>(device_bytes) / 1e9));
+            log.flush();  // before the memory is taken, which may end the process
         }
         Result<gpu::Drawable> drawable = renderer->upload(*model, source, path);
         if (!drawable) return drawable.error();

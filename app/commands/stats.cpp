@@ -134,12 +134,12 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
     print("\n");
 }
 
-/// Whether the table shows rings that are made only for it.
+/// Returns whether the command makes rings for this table alone.
 bool makes_rings(const StatsOptions& options) {
     return options.table == "offsets" || options.table == "periods" || options.table == "seeds";
 }
 
-/// Whether the output shows the primitives of scenes.
+/// Returns whether the output has rows for the primitives of a scene.
 bool shows_primitives(const StatsOptions& options) {
     return options.json || options.table == "sizes";
 }

@@ -76,7 +76,7 @@ Result<FormatSet> make_formats(const Mesh& mesh, const Surface& surface, const R
 
 struct FormatCheck {
     std::string name;
-    /// What is wrong; empty: the format decodes to the same oriented triangles and vertices.
+    /// The fault of the format; empty if it decodes to the same oriented triangles and vertices.
     std::string why;
 };
 

@@ -17,7 +17,7 @@ constexpr std::initializer_list<const char*> kAttributeBits = {"--positions", "-
                                                                "--weights"};
 void add_attribute_bits(CLI::App& command, AttributeBits& bits);
 
-/// Whether any attribute is quantized.
+/// Returns whether any attribute is quantized.
 bool quantizes(const AttributeBits& bits);
 
 struct WholeFile {

@@ -35,7 +35,7 @@ struct Options {
     /// Half of the inputs have vertex streams in the file of one format, because encoding them is slow.
     bool compressed(Format format) const { return byte[4] % 8 == static_cast<std::uint32_t>(format); }
     bool one_per_shell() const { return (byte[0] & 0x10) != 0; }
-    /// Whether vertices of one position are joined, as copies with their own attributes.
+    /// Returns whether vertices of one position are joined, as copies with their own attributes.
     bool joins() const { return (byte[8] & 0x40) == 0; }
     double tolerance() const { return std::array{0.0, 0.0, 1e-3, 3.0}[byte[6] >> 6 & 3]; }
     /// Zero bits run all steps; an input may leave out steps to run faster.

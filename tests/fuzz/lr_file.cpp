@@ -36,7 +36,7 @@ Format format_of(std::uint32_t kind) {
     return kind == 5 ? Format::lr : kind == 6 ? Format::lr_compact : kind == 7 ? Format::packed : Format::lean;
 }
 
-/// Whether both attributes are equal byte by byte, vertex streams included.
+/// True if both attributes are equal byte by byte, vertex streams included.
 template <class Other>
 bool same_attribute(const Other& a, const LrAttribute& b) {
     return a.name == b.name && a.type == b.type && a.components == b.components && a.normalized == b.normalized &&

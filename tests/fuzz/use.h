@@ -21,7 +21,7 @@ void check_message(const Error& error);
 /// Checks the invariant of Mesh (mesh.hpp).
 void check_mesh(const Mesh& mesh);
 
-/// Whether both meshes have the same attributes, byte by byte.
+/// Returns whether both meshes have the same attributes, byte by byte.
 bool same_attributes(const Mesh& a, const Mesh& b);
 
 /// Writes a small mesh to memory in each format, reads it and compares. Ignores large meshes.

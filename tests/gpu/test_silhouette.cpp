@@ -145,7 +145,7 @@ bool red(const gpu::Picture& picture, std::size_t pixel) {
     return p[0] == 255 && p[1] == 0 && p[2] == 0 && p[3] == 255;
 }
 
-/// Whether there is red within `around` pixels of the projection of `point`.
+/// Returns whether there is red within `around` pixels of the projection of `point`.
 bool red_near(const gpu::Picture& picture, const gpu::Camera& camera, const Point3& point, int around) {
     std::array<double, 4> view{0, 0, 0, 1}, clip{};
     for (std::size_t row = 0; row < 3; ++row) {

@@ -40,22 +40,14 @@ try {
   check(status === 0, `tsc: ${stdout}`);
 
   const ts = createRequire(join(modules, "typescript/package.json"))("typescript");
+  // ./three imports "three", which node does not find beside build/js.
+  const entries = Object.entries(JSON.parse(readFileSync(join(built, "package.json"))).exports)
+                    .filter(([entry, {types}]) => types && entry !== "./three");
   const program = ts.createProgram(
-    Object.values(JSON.parse(readFileSync(join(built, "package.json"))).exports)
-      .flatMap(({types}) => (types ? join(built, types) : [])),
-    {
-      ...compilerOptions,
-      module: ts.ModuleKind.NodeNext,
-      moduleResolution: ts.ModuleResolutionKind.NodeNext,
-      target: ts.ScriptTarget.ES2022,
-      lib: undefined,
-      baseUrl: modules,
-      paths: {"three": ["@types/three"]}
-    });
+    entries.map(([, {types}]) => join(built, types)),
+    {module: ts.ModuleKind.NodeNext, moduleResolution: ts.ModuleResolutionKind.NodeNext, types: []});
   const checker = program.getTypeChecker();
-  for (const [entry, {types, default: script}] of Object.entries(
-         JSON.parse(readFileSync(join(built, "package.json"))).exports)) {
-    if (!types || entry === "./three") continue;  // that imports "three", which lies beside the user's package
+  for (const [entry, {types, default: script}] of entries) {
     const symbol = checker.getSymbolAtLocation(program.getSourceFile(join(built, types)));
     const isValue = (e) =>
       ((e.flags & ts.SymbolFlags.Alias ? checker.getAliasedSymbol(e) : e).flags & ts.SymbolFlags.Value) !== 0;

@@ -98,7 +98,7 @@ inline bool same(const Mesh& a, const Mesh& b) {
                       [](const Attribute& x, const Attribute& y) { return x.data == y.data; });
 }
 
-/// Whether the mesh keeps the invariant of Mesh (mesh.hpp).
+/// Returns whether the mesh keeps the invariant of Mesh (mesh.hpp).
 inline bool is_sound(const Mesh& mesh) {
     if (mesh.indices.empty() || mesh.indices.size() % 3 != 0 || mesh.attributes.empty()) return false;
     for (const std::uint32_t v : mesh.indices) {

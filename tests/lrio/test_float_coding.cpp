@@ -113,7 +113,7 @@ struct CodedFloats {
     }
 };
 
-/// Whether the coded floats are refused or decode to the requested size.
+/// Returns whether the coded floats are refused or decode to the requested size.
 bool is_safe(const FloatBytes& coded, std::size_t size) {
     const auto decoded = detail::decode_floats(coded, size);
     return !decoded || decoded->size() == size;

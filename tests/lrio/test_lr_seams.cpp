@@ -39,7 +39,7 @@ Mesh with_numbers(Mesh mesh) {
     return mesh;
 }
 
-/// Whether the attribute is equal at all copies of each surface vertex.
+/// Returns whether the attribute is equal at all copies of each surface vertex.
 bool agrees(const Attribute& attribute, const Surface& surface) {
     const std::vector<std::uint32_t> first = first_vertices(surface);
     for (std::size_t v = 0; v < surface.vertex_of.size(); ++v) {

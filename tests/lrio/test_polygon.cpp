@@ -57,7 +57,7 @@ bool segments_meet(const GridPoint& a, const GridPoint& b, const GridPoint& c, c
     return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
 
-/// Whether no two edges meet except at their shared corner. Tries all pairs.
+/// Returns whether no two edges meet except at their shared corner. Tries all pairs.
 bool is_simple(const Polygon& p) {
     const std::size_t n = p.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -97,7 +97,7 @@ Triangles cut(const Polygon& polygon, Real scale = 1) {
     return cut_space(xyz);
 }
 
-/// Whether the n - 2 triangles are a disc whose border is the polygon's edges.
+/// Returns whether the n - 2 triangles are a disc whose border is the polygon's edges.
 bool is_disc(const Triangles& triangles, std::size_t n) {
     if (triangles.size() != 3 * (n - 2)) return false;
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -114,8 +114,8 @@ bool is_disc(const Triangles& triangles, std::size_t n) {
     });
 }
 
-/// Whether all triangles have the polygon's orientation and their areas sum up to its area, so that they cover it
-/// exactly. Counts triangles without area in `flat`.
+/// Returns whether all triangles have the polygon's orientation and their areas sum up to its area, so that they cover
+/// it exactly. Counts triangles without area in `flat`.
 bool covers(const Triangles& triangles, const Polygon& polygon, std::size_t& flat) {
     std::int64_t area = 0;
     const std::int64_t whole = twice_area(polygon);

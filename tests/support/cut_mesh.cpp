@@ -15,7 +15,7 @@ void append(Attribute& attribute, T value) {
     std::memcpy(attribute.data.data() + at, &value, sizeof value);
 }
 
-/// Whether the corner's triangle has three distinct vertices.
+/// Returns whether the corner's triangle has three distinct vertices.
 bool is_proper(const Mesh& mesh, std::size_t corner) {
     const std::uint32_t* t = &mesh.indices[corner / 3 * 3];
     return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];

@@ -28,7 +28,7 @@ using ValueNumbers = std::map<std::string, std::uint32_t>;
 /// have the same triangles if the results of calls with the same `numbers` are equal.
 std::vector<std::array<std::uint32_t, 3>> triangles_by_values(const Mesh& mesh, ValueNumbers& numbers);
 
-/// Whether a and b put the same elements together: a[i] == a[j] exactly where b[i] == b[j].
+/// Returns whether a and b put the same elements together: a[i] == a[j] exactly where b[i] == b[j].
 bool same_partition(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b);
 
 }  // namespace lacedring::test

@@ -14,7 +14,7 @@
 
 namespace lacedring::test {
 
-/// Whether the tests are built with sanitizers, which make them ten times slower.
+/// True if the tests are built with sanitizers, which make them ten times slower.
 #ifdef LACEDRING_SANITIZE
 constexpr bool kSanitized = true;
 #else

@@ -21,7 +21,7 @@ Function next(const char* name) {
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
-/// Whether the descriptor's path ends with the variable's value.
+/// Returns whether the descriptor's path ends with the variable's value.
 bool is_slow(int descriptor) {
     const char* end = std::getenv("FAULT_SLOW_FILE");
     if (end == nullptr) return false;
@@ -31,7 +31,7 @@ bool is_slow(int descriptor) {
     return size > 0 && std::string_view(path, static_cast<std::size_t>(size)).ends_with(end);
 }
 
-/// Whether the C++ library is the caller. Drivers create threads without it.
+/// Returns whether the C++ library is the caller. Drivers create threads without it.
 bool from_cxx_library(const void* caller) {
     Dl_info info{};
     return dladdr(caller, &info) != 0 && info.dli_fname != nullptr &&

@@ -52,7 +52,7 @@ class PaintLayer {
     /// one stays. Returns whether the picture must be composed again. Errors: kDeviceFailure (no thread), too_large
     /// (memory), those of the scene; the next call tries again.
     Result<bool> update(Scene& scene, const Wanted& wanted);
-    /// Whether the scene shows the wanted layers.
+    /// Returns whether the scene already shows the layers in `wanted`.
     bool laid(const Wanted& wanted) const { return !wanted.document || laid_ == wanted; }
     /// Removes all layers, before another mesh is shown.
     Result<void> clear(Scene& scene);

@@ -19,7 +19,7 @@ namespace lacedring::view {
 
 enum class Mode { single, split, difference };
 
-/// What a picture shows, and how it is drawn.
+/// Settings of one picture: view, source and display options.
 struct Shown {
     gpu::View view = gpu::View::smooth;
     gpu::Source source = gpu::Source::lean;
@@ -95,7 +95,7 @@ class Scene {
     const Shown& drawn() const { return drawn_; }
     /// Materials of the picture drawn last; null: drawn without materials.
     const gpu::GpuMaterials* materials() const;
-    /// Whether the ring's line is drawn over the picture. It is not if the mesh's edges are too short.
+    /// Returns whether the ring's line is drawn over the picture. Meshes with very short edges are drawn without it.
     bool has_ring_line() const;
 
     /// The composed image; in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL once composed.

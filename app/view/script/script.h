@@ -22,7 +22,7 @@ class Script {
     /// Call before each frame. Executes lines up to the first that has to wait. Errors: invalid_argument,
     /// "FILE:LINE: why".
     Result<void> advance(Viewer& viewer, Window& window, std::deque<Event>& events);
-    /// Whether a line is waiting.
+    /// Returns whether a line is waiting.
     bool waiting() const { return waited_ > 0; }
 
   private:
@@ -65,8 +65,8 @@ class Script {
     Result<bool> save_turn(const Words& words, const Stage& stage);
     Result<bool> print(const Words& words, const Stage& stage);
     Result<bool> ray(const Words& words, const Stage& stage);
-    /// Whether earlier changes are drawn and settled, as needed before a picture is saved. Errors: invalid_argument
-    /// after 600 frames.
+    /// Returns whether earlier changes are drawn and settled, as needed before a picture is saved. Errors:
+    /// invalid_argument after 600 frames.
     Result<bool> settle(const Viewer& viewer) const;
 
     std::string name_;

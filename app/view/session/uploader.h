@@ -69,7 +69,7 @@ class Uploader {
 
     /// Queues the job; drops a queued job and stops a running one. `expander` must outlive the job.
     void ask(Job job, gpu::Expander& expander);
-    /// Whether this job was asked for last, and its result was not taken yet.
+    /// Returns whether this job was asked for last, and its result was not taken yet.
     bool asked(const Job& job) const;
     /// Takes the result of the job asked for last, if it is done.
     std::optional<Done> take();

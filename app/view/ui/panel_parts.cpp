@@ -15,7 +15,7 @@ float width_of(std::string_view text) {
     return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
 }
 
-/// Whether a UTF-8 character begins at byte i.
+/// Returns whether a UTF-8 character begins at byte i.
 bool begins(std::string_view text, std::size_t i) {
     return i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80U;
 }

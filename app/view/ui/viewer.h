@@ -113,7 +113,7 @@ class Viewer {
     bool news() const { return loader_.has_news() || news_.document || shaders_.has_news(); }
     bool animated() const;
     bool busy() const;
-    /// Whether another ring or weld is chosen than was asked for.
+    /// Returns whether another ring or weld is chosen than was asked for.
     bool ring_due() const { return state_.choices.ring != asked_ || state_.choices.weld != asked_weld_; }
     bool difference_due() const { return scene_.drawn().mode != Mode::single && !state_.facts.difference; }
     void tell_error(const Result<void>& result);
