@@ -1,5 +1,6 @@
 // Decodes in a worker, in browsers and in node.
 import {LacedRingError} from "./errors.js";
+import {nodeThreads} from "./threads.js";
 
 let worker, last = 0;
 const waiting = new Map();
@@ -18,15 +19,17 @@ function fail(message) {
 }
 
 async function start() {
-  const url = new URL("./worker.js", import.meta.url);
   if (typeof Worker === "function") {
-    const made = new Worker(url, {type: "module"});
+    // Bundlers find the worker's script by this expression only if it is in one piece.
+    const made = new Worker(new URL("./worker.js", import.meta.url), {type: "module"});
     made.onmessage = ({data}) => settle(data);
-    made.onerror = (event) => fail(event.message);
+    // A script that cannot be loaded has an event without a message.
+    made.onerror = ({message}) => fail(message || "its script (worker.js of the package) could not be loaded");
     return made;
   }
-  const {Worker: NodeWorker} = await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:worker_threads");
-  const made = new NodeWorker(url);
+  const {Worker: NodeWorker} = await nodeThreads();
+  const here = import.meta.url;  // else bundlers for browsers copy the script once more
+  const made = new NodeWorker(new URL("./worker.js", here));
   made.on("message", settle);
   made.on("error", (error) => fail(error.message));
   return made;

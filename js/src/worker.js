@@ -1,9 +1,6 @@
 // The worker that pool.js starts: decodes the files that it receives.
 import {decodeMesh, ready} from "./lacedring.js";
-
-const port = typeof self === "object" ?
-  self :
-  (await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:worker_threads")).parentPort;
+import {nodeThreads} from "./threads.js";
 
 function buffersOf({indices, attributes, surface, vertexOrder, cornerOrder}) {
   const arrays =
@@ -11,7 +8,7 @@ function buffersOf({indices, attributes, surface, vertexOrder, cornerOrder}) {
   return arrays.filter((array) => array !== undefined).map(({buffer}) => buffer);
 }
 
-async function answer({id, bytes, options}) {
+async function answer(port, {id, bytes, options}) {
   try {
     await ready;
     const mesh = decodeMesh(bytes, options);
@@ -21,7 +18,7 @@ async function answer({id, bytes, options}) {
   }
 }
 
-if (port.on)
-  port.on("message", answer);
+if (typeof self === "object")
+  self.onmessage = ({data}) => answer(self, data);
 else
-  port.onmessage = ({data}) => answer(data);
+  nodeThreads().then(({parentPort}) => parentPort.on("message", (data) => answer(parentPort, data)));
