@@ -14,8 +14,7 @@ struct InputOptions {
     bool keep_vertices = false;  ///< does not merge equal copies of a vertex
     bool allow_outside = false;
     bool materials = false;  ///< reads materials, too
-    /// Recommend `pack` in notes on scene data that is not kept.
-    bool scene_hint = false;
+    bool writes = false;     ///< the command writes what it reads: notes say what is not kept, and recommend `pack`
     std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
     /// Bytes per triangle that the command takes at its peak, without the mesh (docs/reliability.md).
     std::uint32_t triangle_bytes = 0;

@@ -1,5 +1,6 @@
 #include "app/cli/output.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -52,7 +53,7 @@ Result<void> check_output(const fs::path& path, const OutputOptions& options, co
     if (options.force || path == "-" || path.empty()) return {};
     const std::string extension = lower_extension(path);
     if (is_known(extension) && std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
-        return refused("what is written is no " + extension + " file");
+        return refused(fmt::format("what is written is no {} file, but {}", extension, fmt::join(extensions, " or ")));
     }
     for (const fs::path& input : log.files()) {
         std::error_code missing;

@@ -29,6 +29,9 @@ void add_force(CLI::App& command, OutputOptions& options);
 /// Name of an output in messages: the path, or "standard output".
 std::string output_name(const std::filesystem::path& path);
 
+/// Extensions of the mesh files that commands write.
+inline constexpr std::string_view kMeshExtensions[] = {".glb", ".ply", ".obj"};
+
 /// Unless --force is given, refuses an output that is one of the files read (also through links), or has the extension
 /// of a kind of file that is not in `extensions` (".lr"). Errors: invalid_argument.
 Result<void> check_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log,

@@ -28,15 +28,8 @@ fs::path beside(const SceneOutput& output, std::string_view extension) {
     return output.path.parent_path() / (output.path.stem().string() + std::string(extension));
 }
 
-}  // namespace
-
-SceneOutput::SceneOutput(const fs::path& to) : path(to) {
-    if (path.extension() != ".gltf") return;
-    bin = uri_of(path.stem().string() + ".bin");
-    fallback = uri_of(path.stem().string() + ".fallback.bin");
-}
-
-Result<void> check_scene_output(const SceneOutput& output, const OutputOptions& options, const RunLog& log) {
+/// Applies check_output to all files that would be written.
+Result<void> check_files(const SceneOutput& output, const OutputOptions& options, const RunLog& log) {
     constexpr std::array<std::string_view, 2> kScenes = {".glb", ".gltf"};
     constexpr std::array<std::string_view, 1> kBuffers = {".bin"};
     if (auto good = check_output(output.path, options, log, kScenes); !good || output.bin.empty()) return good;
@@ -49,7 +42,8 @@ Result<void> check_scene_output(const SceneOutput& output, const OutputOptions& 
     return {};
 }
 
-Result<std::uint64_t> write_scene(const SceneFile& scene, const SceneOutput& output) {
+/// Writes the buffers, then the document. Returns the size of all files in bytes.
+Result<std::uint64_t> write_files(const SceneFile& scene, const SceneOutput& output) {
     if (output.bin.empty()) {
         const auto head = make_glb_head(scene);
         if (!head) return head.error();
@@ -69,6 +63,7 @@ Result<std::uint64_t> write_scene(const SceneFile& scene, const SceneOutput& out
     return scene.json.size() + scene.bin.size() + scene.fallback.size();
 }
 
+/// Adds a note if the scene refers to image files, which are not copied, and the output is in another folder.
 void note_images(const SceneFile& scene, const std::string& input, const SceneOutput& output, RunLog& log) {
     std::error_code error;
     const fs::path from = fs::path(input).parent_path(), to = output.path.parent_path();
@@ -88,6 +83,34 @@ void note_images(const SceneFile& scene, const std::string& input, const SceneOu
                  fmt::format("{} image{} not copied: {} to lie beside it, as beside {}", files,
                              files == 1 ? " is" : "s are", files == 1 ? "it has" : "they have", input_name(input)));
     }
+}
+
+}  // namespace
+
+SceneOutput::SceneOutput(const fs::path& to) : path(to) {
+    if (path.extension() != ".gltf") return;
+    bin = uri_of(path.stem().string() + ".bin");
+    fallback = uri_of(path.stem().string() + ".fallback.bin");
+}
+
+Result<std::vector<std::byte>> read_scene(const std::string& path, const InputOptions& options, RunLog& log) {
+    auto bytes = read_input(path, options, log);
+    if (!bytes) return bytes.error();
+    if (is_lr(*bytes)) return Error{ErrorCode::unsupported, "is an .lr file, not glTF (lacedring decode reads it)"};
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    const std::size_t start = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+    if (start != std::string_view::npos && text[start] != '{' && !text.starts_with("glTF")) {
+        return Error{ErrorCode::unsupported, "is no glTF (lacedring encode takes meshes of other formats)"};
+    }
+    return bytes;
+}
+
+Result<std::uint64_t> write_scene(const SceneFile& scene, const std::string& input, const SceneOutput& output,
+                                  const OutputOptions& options, RunLog& log) {
+    if (auto good = check_files(output, options, log); !good) return good.error();
+    auto bytes = write_files(scene, output);
+    if (bytes) note_images(scene, input, output, log);
+    return bytes;
 }
 
 std::uint64_t input_bytes(std::uint64_t file, const ReadReport& read) {

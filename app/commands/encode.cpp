@@ -188,7 +188,7 @@ void add_encode(CLI::App& program, Action& action) {
     command->callback([options, rules, &action] {
         rules->check();
         options->input.keep_vertices = options->keep_order;
-        options->input.scene_hint = true;
+        options->input.writes = true;
         action = [options](RunLog& log) { return run_encode(*options, log); };
     });
 }

@@ -33,8 +33,7 @@ int run_generate(const GenerateOptions& options, RunLog& log) {
                     Error{ErrorCode::invalid_argument,
                           standard ? "needs --output-format glb, ply or obj" : "--output-format goes with -o -"});
     }
-    constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
-    if (const auto good = check_output(output, options.output, log, kExtensions); !good)
+    if (const auto good = check_output(output, options.output, log, kMeshExtensions); !good)
         return fail(output_name(output), good.error());
     const Result<Mesh> mesh = generate(options.kind, options.triangles, options.seed);
     if (!mesh) return fail(fmt::format("--triangles {}", options.triangles), mesh.error());

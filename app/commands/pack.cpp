@@ -61,7 +61,7 @@ Json report_json(const std::string& file, const PackReport& report, std::uint64_
 
 /// Returns an Exit.
 int pack_file(const PackCommand& options, const std::string& input, const std::filesystem::path& path, RunLog& log) {
-    const auto bytes = read_input(input, options.input, log);
+    const auto bytes = read_scene(input, options.input, log);
     if (!bytes) return fail(input, bytes.error());
     const SceneOutput output(path);
     PackOptions how = options.pack;
@@ -72,17 +72,13 @@ int pack_file(const PackCommand& options, const std::string& input, const std::f
     const auto scene = pack_scene(*bytes, input == "-" ? "" : input, how, read_options(options.input), &report);
     for (std::filesystem::path& file : report.read.files) log.read(file);
     if (!scene) return fail(input, scene.error());
-    if (const auto good = check_scene_output(output, options.output, log); !good) {
-        return fail(output_name(path), good.error());
-    }
-    const auto written = write_scene(*scene, output);
+    const auto written = write_scene(*scene, input, output, options.output, log);
     if (!written) return fail(output_name(path), written.error());
     const std::uint64_t before = input_bytes(bytes->size(), report.read);
     for (const std::string& note : report.notes) log.note(input_name(input), note);
     if (!report.not_compressed.empty()) {
         log.note(input_name(input), "primitives not compressed: " + listed(report.not_compressed));
     }
-    note_images(*scene, input, output, log);
     if (options.json) print_json(report_json(input_name(input), report, before, *written));
     const std::string errors = errors_of(report.max_error);
     log.wrote(output_name(path),

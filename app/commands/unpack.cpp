@@ -20,7 +20,7 @@ struct UnpackCommand {
 /// Returns an Exit.
 int unpack_file(const UnpackCommand& options, const std::string& input, const std::filesystem::path& path,
                 RunLog& log) {
-    const auto bytes = read_input(input, options.input, log);
+    const auto bytes = read_scene(input, options.input, log);
     if (!bytes) return fail(input, bytes.error());
     const SceneOutput output(path);
     UnpackReport report;
@@ -28,12 +28,8 @@ int unpack_file(const UnpackCommand& options, const std::string& input, const st
         unpack_scene(*bytes, input == "-" ? "" : input, output.bin, read_options(options.input), &report);
     for (std::filesystem::path& file : report.read.files) log.read(file);
     if (!scene) return fail(input, scene.error());
-    if (const auto good = check_scene_output(output, options.output, log); !good) {
-        return fail(output_name(path), good.error());
-    }
-    const auto written = write_scene(*scene, output);
+    const auto written = write_scene(*scene, input, output, options.output, log);
     if (!written) return fail(output_name(path), written.error());
-    note_images(*scene, input, output, log);
     log.wrote(output_name(path),
               fmt::format("{}, {}, {} bytes; packed {} bytes", count_text(report.primitives, "primitive"),
                           count_text(report.triangles, "triangle"), *written, input_bytes(bytes->size(), report.read)));

@@ -1,5 +1,6 @@
-/* Prints an .lr file in storage form (docs/lr-file.md) as OBJ. Comments have the name and a checksum of each attribute.
-   A corner has the number of its vertex, and the vertex or copy of its texture coordinate and normal. */
+/* Prints an .lr file of a packed stream (docs/lr-file.md), in storage form or resident, as OBJ. Comments have the name
+   and a checksum of each attribute. A corner has the number of its vertex, and the vertex or copy of its texture
+   coordinate and normal. */
 #define LACEDRING_DECODE_IMPLEMENTATION
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,12 +30,12 @@ static int fail(const char* what, unsigned status, uint64_t where) {
     return 1;
 }
 
-/* The words of a section; null if it is beyond the file. */
+/* The words of a section; null if it is beyond the file or damaged. */
 static const uint32_t* contents_of(const uint32_t* section, size_t* count) {
     const size_t first = section[2] / 4;
     *count = (section[4] + 3) / 4;
     if (section[3] != 0 || section[5] != 0 || first > file_count || *count > file_count - first) return NULL;
-    return file_words + first;
+    return lacedring_crc32(file_words + first, section[4]) == section[1] ? file_words + first : NULL;
 }
 
 /* Prints an attribute that OBJ has. */
@@ -146,7 +147,7 @@ static int print_attribute(const uint32_t* words, size_t count, const uint32_t* 
     return 0;
 }
 
-static int read_triangles(const uint32_t* words, size_t count, struct mesh* mesh) {
+static int read_stored_triangles(const uint32_t* words, size_t count, struct mesh* mesh) {
     struct lacedring_stored_packed s;
     uint64_t where = 0;
     void* scratch;
@@ -162,7 +163,20 @@ static int read_triangles(const uint32_t* words, size_t count, struct mesh* mesh
     return s.vertices == file_words[3] ? 0 : fail("vertices", 0, s.vertices);
 }
 
-static int read_seams(const uint32_t* words, size_t count, struct mesh* mesh) {
+static int read_resident_triangles(const uint32_t* words, size_t count, struct mesh* mesh) {
+    struct lacedring_packed packed;
+    uint64_t where = 0;
+    const enum lacedring_status status = lacedring_packed_validate(words, count, &packed, &where);
+    if (status != LACEDRING_STATUS_OK) return fail("connectivity", status, where);
+    if (packed.vertices != file_words[3]) return fail("vertices", 0, packed.vertices);
+    mesh->triangles = malloc(12 * (size_t)packed.triangles + 1);
+    mesh->triangle_count = packed.triangles;
+    if (mesh->triangles == NULL) return fail("no memory", 0, 0);
+    lacedring_packed_triangles_u32(&packed, mesh->triangles);
+    return 0;
+}
+
+static int read_stored_seams(const uint32_t* words, size_t count, struct mesh* mesh) {
     struct lacedring_stored_seams s;
     uint64_t where = 0;
     void* scratch;
@@ -175,6 +189,25 @@ static int read_seams(const uint32_t* words, size_t count, struct mesh* mesh) {
     if (scratch == NULL || mesh->corners == NULL || mesh->vertex_of == NULL) return fail("no memory", 0, 0);
     status = lacedring_stored_seams_decode(&s, mesh->triangles, scratch, mesh->corners, mesh->vertex_of, &where);
     if (status != LACEDRING_STATUS_OK) return fail("copies", status, where);
+    free(scratch);
+    return s.copies == file_words[5] ? 0 : fail("copies", 0, s.copies);
+}
+
+static int read_resident_seams(const uint32_t* words, size_t count, struct mesh* mesh) {
+    struct lacedring_seams s;
+    uint64_t where = 0;
+    uint32_t* scratch;
+    enum lacedring_status status = lacedring_seams_open(words, count, file_words[3], mesh->triangle_count, &s, &where);
+    if (status == LACEDRING_STATUS_OK) status = lacedring_seams_checksum(&s);
+    if (status != LACEDRING_STATUS_OK) return fail("seams", status, where);
+    scratch = malloc(4 * lacedring_seams_scratch(&s));
+    mesh->corners = malloc(12 * (size_t)mesh->triangle_count + 1);
+    mesh->vertex_of = malloc(4 * (size_t)s.copies + 1);
+    if (scratch == NULL || mesh->corners == NULL || mesh->vertex_of == NULL) return fail("no memory", 0, 0);
+    status = lacedring_seams_check(&s, mesh->triangles, scratch, &where);
+    if (status != LACEDRING_STATUS_OK) return fail("copies", status, where);
+    lacedring_seams_decode(&s, mesh->triangles, scratch, mesh->corners);
+    lacedring_seams_copy_vertices(&s, mesh->triangles, scratch, mesh->vertex_of);
     free(scratch);
     return s.copies == file_words[5] ? 0 : fail("copies", 0, s.copies);
 }
@@ -206,16 +239,19 @@ int main(int argc, char** argv) {
         const uint32_t* section = file_words + HEADER_WORDS + (size_t)SECTION_WORDS * i;
         const uint32_t* words = contents_of(section, &count);
         int failed = 0;
-        if (words == NULL) return fail("a section beyond the file", 0, i);
-        if (section[0] == (PACKED | STORED << 16) && mesh.triangles == NULL)
-            failed = read_triangles(words, count, &mesh);
-        else if (section[0] == (SEAMS | STORED << 16) && mesh.triangles != NULL && mesh.corners == NULL)
-            failed = read_seams(words, count, &mesh);
-        else if ((section[0] & 0xffff) == VERTICES && mesh.triangles != NULL) /* resident where that is smaller */
+        if (words == NULL) return fail("a section beyond the file, or damaged", 0, i);
+        /* Each section is in storage form, or resident where that is smaller. */
+        if ((section[0] & 0xffff) == PACKED && mesh.triangles == NULL)
+            failed = section[0] >> 16 == STORED ? read_stored_triangles(words, count, &mesh)
+                                                : read_resident_triangles(words, count, &mesh);
+        else if ((section[0] & 0xffff) == SEAMS && mesh.triangles != NULL && mesh.corners == NULL)
+            failed = section[0] >> 16 == STORED ? read_stored_seams(words, count, &mesh)
+                                                : read_resident_seams(words, count, &mesh);
+        else if ((section[0] & 0xffff) == VERTICES && mesh.triangles != NULL)
             failed = print_attribute(words, count, section, &mesh);
         if (failed) return 1;
     }
-    if (mesh.triangles == NULL) return fail("no stored packed stream", 0, 0);
+    if (mesh.triangles == NULL) return fail("no packed stream", 0, 0);
     for (t = 0; t < mesh.triangle_count; ++t) {
         printf("f");
         print_corner(&mesh, 3 * t);

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """test_storage.py LACEDRING CC HEADERS ASSETS: a C99 program with lacedring_storage.h and lacedring_stored_seams.h alone decodes .lr files in storage
-form to the triangles and attributes of `lacedring decode`. It is compiled normally, without vectors (LACEDRING_PLAIN) and sanitized."""
+form to the triangles and attributes of `lacedring decode`. It is compiled normally, without vectors (LACEDRING_PLAIN) and sanitized. examples/decode.c
+decodes the same files, and resident ones, to the same surface. Both refuse every file with a changed bit."""
 
 import pathlib
+import random
 import struct
 import subprocess
 import sys
@@ -30,6 +32,33 @@ def surface(text):
     return values["v"], triangles
 
 
+def faces(vertices, triangles):
+    """The triangles as positions, each beginning with its smallest, sorted."""
+    turned = []
+    for t in triangles:
+        corners = [c["v"] for c in t]
+        least = corners.index(min(corners))
+        turned.append(corners[least:] + corners[:least])
+    return sorted(turned), set(vertices)
+
+
+def check_damage(programs, file, folder):
+    """Changes one bit of a section in each of 40 copies of the file."""
+    seed = random.randrange(2**32)
+    rng = random.Random(seed)
+    whole = pathlib.Path(file).read_bytes()
+    begin = struct.unpack_from("<Q", whole, 32 + 8)[0]
+    sizes = struct.unpack_from("<Q", whole, 32 + 16)[0]
+    for _ in range(40):
+        bit = rng.randrange(8 * begin, 8 * (begin + sizes))
+        damaged = bytearray(whole)
+        damaged[bit // 8] ^= 1 << bit % 8
+        pathlib.Path(folder, "damaged.lr").write_bytes(damaged)
+        for program in programs:
+            if subprocess.run([program, f"{folder}/damaged.lr"], capture_output=True).returncode != 1:
+                sys.exit(f"{program} accepts {file} with bit {bit} changed (seed {seed})")
+
+
 def main():
     lacedring, compiler, headers, assets = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
@@ -38,8 +67,10 @@ def main():
         subprocess.run([compiler, *FLAGS, "-Os", "-ffreestanding", "-I", headers, "-c", alone, "-o", f"{folder}/alone.o"], check=True)
         for variant, flags in VARIANTS.items():
             subprocess.run([compiler, *FLAGS, *flags, "-I", headers, HERE / "storage.c", "-o", f"{folder}/{variant}", "-lm"], check=True)
-        for mesh, options in CASES:
-            run = [lacedring, "encode", f"{assets}/{mesh}", "-o", f"{folder}/mesh.lr", "--storage", "--force", *options]
+        example = HERE.parent.parent / "examples" / "decode.c"
+        subprocess.run([compiler, *FLAGS, *VARIANTS["sanitized"], "-I", headers, example, "-o", f"{folder}/example", "-lm"], check=True)
+        for mesh, options in [*CASES, *[(mesh, ["--resident", *options]) for mesh, options in CASES]]:
+            run = [lacedring, "encode", f"{assets}/{mesh}", "-o", f"{folder}/mesh.lr", "--force", *options]
             subprocess.run(run, check=True, capture_output=True)
             subprocess.run([lacedring, "decode", f"{folder}/mesh.lr", "-o", f"{folder}/mesh.obj", "--force"], check=True, capture_output=True)
             wanted = surface(pathlib.Path(folder, "mesh.obj").read_text())
@@ -54,6 +85,10 @@ def main():
                 outputs.add(done.stdout)
             if len(outputs) != 1:
                 sys.exit(f"{mesh} {options}: variants differ")
+            done = subprocess.run([f"{folder}/example", f"{folder}/mesh.lr"], capture_output=True, text=True)
+            if done.returncode != 0 or faces(*surface(done.stdout)) != faces(*wanted):
+                sys.exit(f"{mesh} {options}: examples/decode.c: {done.stderr[-2000:] or 'another surface than lacedring decode'}")
+            check_damage([f"{folder}/vectors", f"{folder}/example"], f"{folder}/mesh.lr", folder)
             print(f"{mesh} {options}: {len(wanted[0])} vertices, {len(wanted[1])} triangles alike")
 
 

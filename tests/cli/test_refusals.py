@@ -316,6 +316,22 @@ class Usage(CliTest):
             self.wrong(*arguments)
 
 
+class Advice(CliTest):
+    """An error of using the wrong command names the right one, or what the command takes."""
+
+    def test_scenes_are_gltf(self):
+        mesh, lr, out = self.write("a.ply", write.ply(POINTS, TRIANGLES)), self.path("a.lr"), self.path("out.glb")
+        self.ok("encode", mesh, "-o", lr)
+        for command in ("pack", "unpack"):
+            self.fails(command, mesh, "-o", out, mentions=["is no glTF", "lacedring encode"])
+            self.fails(command, lr, "-o", out, mentions=["is an .lr file", "lacedring decode"])
+
+    def test_outputs_by_extension(self):
+        mesh, lr = self.write("a.ply", write.ply(POINTS, TRIANGLES)), self.path("a.lr")
+        self.ok("encode", mesh, "-o", lr)
+        self.fails("decode", lr, "-o", self.path("a.stl"), mentions=[".glb or .ply or .obj"], codes=(WRONG_USAGE,))
+
+
 class Notes(CliTest):
     def test_losses_are_reported(self):
         document = json.loads(write.gltf(POINTS, [(4, [0, 1, 2])]))
@@ -326,6 +342,7 @@ class Notes(CliTest):
         for what in ("not kept", "2 materials", "1 texture", "1 image", "1 skin", "1 animation"):
             self.assertIn(what, first)
         self.assertEqual(self.json("info", "--json", gltf)["triangles"], 1)  # standard output is the document only
+        self.assertIn("left out of the mesh: 2 materials", self.ok("info", gltf).err)
         # An error is one line, without the notes.
         self.fails("encode", gltf, "-o", self.path("missing/a.lr"), mentions=["missing/a.lr"])
 

@@ -68,6 +68,10 @@ enum lacedring_status {
     LACEDRING_STATUS_COPY          /* impossible copy; where: the vertex */
 };
 
+/* CRC-32 of bytes, as zlib's crc32(0, bytes, size) returns it: the checksum of each section of an .lr file
+   (docs/lr-file.md). Linear time, four bits at a time. */
+uint32_t lacedring_crc32(const void* bytes, size_t size);
+
 /* A lean stream whose header was read. Refers to the caller's words. Its slots are: 2 per vertex of two-sided rings,
    then 1 per vertex of one-sided rings, then the verbatim triangles. A slot is a triangle. It is degenerate (its first
    two vertices are equal) if its triangle is stored in another slot, at a border, and where a ring closes. */
@@ -170,18 +174,27 @@ static enum lacedring_status lacedring_at_(uint64_t* where, uint64_t value, enum
     return status;
 }
 
-/* CRC-32, four bits at a time: here a small table matters more than speed. */
-static uint32_t lacedring_crc_(uint32_t crc, const uint32_t* words, size_t count) {
+/* CRC-32, four bits at a time: here a small table matters more than speed. `digits`: how many of `bits` to add. */
+static uint32_t lacedring_crc_bits_(uint32_t crc, uint32_t bits, int digits) {
     static const uint32_t table[16] = {0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u,
                                        0x4db26158u, 0x5005713cu, 0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,
                                        0x9b64c2b0u, 0x86d3d2d4u, 0xa00ae278u, 0xbdbdf21cu};
-    size_t i;
-    int digit;
-    for (i = 0; i < count; ++i) {
-        crc ^= words[i];
-        for (digit = 0; digit < 8; ++digit) crc = (crc >> 4) ^ table[crc & 15];
-    }
+    crc ^= bits;
+    while (digits-- > 0) crc = (crc >> 4) ^ table[crc & 15];
     return crc;
+}
+
+static uint32_t lacedring_crc_(uint32_t crc, const uint32_t* words, size_t count) {
+    size_t i;
+    for (i = 0; i < count; ++i) crc = lacedring_crc_bits_(crc, words[i], 8);
+    return crc;
+}
+
+uint32_t lacedring_crc32(const void* bytes, size_t size) {
+    uint32_t crc = UINT32_MAX;
+    size_t i;
+    for (i = 0; i < size; ++i) crc = lacedring_crc_bits_(crc, ((const uint8_t*)bytes)[i], 2);
+    return ~crc;
 }
 
 uint32_t lacedring_lean_slots(const struct lacedring_lean* lean) {
