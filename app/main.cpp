@@ -61,7 +61,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) {
             lacedring::app::say("lacedring: {} (lacedring --help lists the commands)\n",
-                                lacedring::app::one_line(error.what()));
+                                lacedring::app::what_is_wrong(program, error));
             return lacedring::app::wrong_usage;
         }
         std::ostringstream out;  // the help or the version

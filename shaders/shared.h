@@ -77,7 +77,7 @@ struct RotateConstants {
 struct FrameConstants {
     mat4 view_from_world;
     mat4 clip_from_view;
-    vec4 line_colour;  // with opacity
+    vec4 line_color;  // with opacity
 };
 // Lines over the surface are moved toward the eye by this fraction of their distance.
 #define LR_LINE_LIFT 0.0012

@@ -33,6 +33,21 @@ std::string lower(std::string text) {
     return text;
 }
 
+/// "; nearest is 'NAME'" for the name that needs the fewest edits, or "" if none is near.
+std::string nearest_of(const std::string& wrong, const std::vector<std::string>& names) {
+    if (wrong.size() > 40) return {};
+    std::string nearest;
+    std::size_t least = SIZE_MAX;
+    for (const std::string& name : names) {
+        const std::size_t distance = edit_distance(lower(wrong), name);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = name;
+    }
+    if (least > 2 && (least > 4 || 2 * least > nearest.size())) return {};
+    return fmt::format("; nearest is '{}'", nearest);
+}
+
 }  // namespace
 
 std::vector<std::string> arguments(int argc, char** argv) {
@@ -64,18 +79,25 @@ std::string check_command(const CLI::App& program, std::vector<std::string>& wor
     for (const char* gpu : {"render", "compare", "view"}) {
         if (name == gpu) return fmt::format("this program was built without Vulkan, and has no {}", name);
     }
-    std::string nearest;
-    std::size_t least = SIZE_MAX;
-    for (const CLI::App* command : commands) {
-        const std::size_t distance = name.size() > 40 ? SIZE_MAX - 1 : edit_distance(lower(name), command->get_name());
-        if (distance >= least) continue;
-        least = distance;
-        nearest = command->get_name();
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    return fmt::format("unknown command '{}'", one_line(name.substr(0, 40))) + nearest_of(name, names);
+}
+
+std::string what_is_wrong(const CLI::App& program, const CLI::ParseError& error) {
+    const std::vector<std::string> rest = program.remaining(true);
+    const auto unknown = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with("--"); });
+    const auto commands = program.get_subcommands();
+    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) || unknown == rest.end() ||
+        commands.empty())
+        return one_line(error.what());
+    const std::string name = unknown->substr(0, unknown->find('='));
+    std::vector<std::string> names;
+    for (const CLI::Option* option : commands[0]->get_options()) {
+        for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
     }
-    const std::string unknown = fmt::format("unknown command '{}'", one_line(name.substr(0, 40)));
-    return least <= 2 || (least <= 4 && 2 * least <= nearest.size())
-               ? unknown + fmt::format("; nearest is '{}'", nearest)
-               : unknown;
+    return fmt::format("{} has no option {}", commands[0]->get_name(), one_line(name.substr(0, 40))) +
+           nearest_of(name, names);
 }
 
 std::string one_line(std::string text) {

@@ -208,9 +208,9 @@ class PropertyPlanner {
             group.push_back(i);
         }
         const ComponentType type = vertex_.properties[group.front()].type;
-        const bool colour = name == "COLOR_0" && (type == ComponentType::u8 || type == ComponentType::u16);
-        if (!colour && !is_real(type)) return false;
-        add(name, type, colour, std::move(group));
+        const bool color = name == "COLOR_0" && (type == ComponentType::u8 || type == ComponentType::u16);
+        if (!color && !is_real(type)) return false;
+        add(name, type, color, std::move(group));
         return true;
     }
 

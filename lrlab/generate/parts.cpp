@@ -11,7 +11,7 @@ namespace {
 /// The transform of a piece: scale, random rotation, translation.
 class Frame {
   public:
-    Frame(Random& random, Point centre, double size) : centre_(centre) {
+    Frame(Random& random, Point center, double size) : center_(center) {
         double q[4];
         double norm = 0;
         do {  // a uniformly distributed quaternion; the norm is divided out below
@@ -31,14 +31,14 @@ class Frame {
         }
     }
     Point operator()(double x, double y, double z) const {
-        return {m_[0][0] * x + m_[0][1] * y + m_[0][2] * z + centre_[0],
-                m_[1][0] * x + m_[1][1] * y + m_[1][2] * z + centre_[1],
-                m_[2][0] * x + m_[2][1] * y + m_[2][2] * z + centre_[2]};
+        return {m_[0][0] * x + m_[0][1] * y + m_[0][2] * z + center_[0],
+                m_[1][0] * x + m_[1][1] * y + m_[1][2] * z + center_[1],
+                m_[2][0] * x + m_[2][1] * y + m_[2][2] * z + center_[2]};
     }
 
   private:
     double m_[3][3];
-    Point centre_;
+    Point center_;
 };
 
 double fraction(std::uint32_t i, std::uint32_t n) {
@@ -140,10 +140,10 @@ Result<Mesh> make_parts(std::uint64_t triangles, std::uint64_t seed) {
     while (side * side * side * 8 < triangles) ++side;
     for (std::uint64_t piece = 0; builder.triangles() < triangles; ++piece) {
         if (builder.vertices() + 200 > kMostVertices) return too_many_generated();
-        const Point centre{static_cast<double>(piece % side) + 0.25 * random.signed_unit(),
+        const Point center{static_cast<double>(piece % side) + 0.25 * random.signed_unit(),
                            static_cast<double>(piece / side % side) + 0.25 * random.signed_unit(),
                            static_cast<double>(piece / side / side) + 0.25 * random.signed_unit()};
-        const Frame frame(random, centre, 0.3 + 0.1 * random.signed_unit());
+        const Frame frame(random, center, 0.3 + 0.1 * random.signed_unit());
         const std::uint64_t left = triangles - builder.triangles();
         const std::uint32_t kind = random.below(10);
         const std::uint32_t size = random.between(1, 5);

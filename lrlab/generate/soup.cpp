@@ -147,7 +147,7 @@ Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed) {
         const auto kind = i < piece_kinds ? static_cast<std::uint32_t>(i) : random.below(piece_kinds);
         Piece piece = make_piece(kind, random);
         if (builder.vertices() + std::uint64_t{piece.vertices} > kMostVertices) return too_many_generated();
-        const Point centre{static_cast<double>(i % side), static_cast<double>(i / side % side),
+        const Point center{static_cast<double>(i % side), static_cast<double>(i / side % side),
                            static_cast<double>(i / side / side)};
         number.clear();
         for (std::uint32_t v = 0; v < piece.vertices; ++v) {
@@ -156,9 +156,9 @@ Result<Mesh> make_soup(std::uint64_t triangles, std::uint64_t seed) {
                 number.push_back(builder.vertices() - 1 - random.below(std::min(builder.vertices(), 100U)));
                 continue;
             }
-            const double x = centre[0] + 0.45 * random.signed_unit();
-            const double y = centre[1] + 0.45 * random.signed_unit();
-            const double z = centre[2] + 0.45 * random.signed_unit();
+            const double x = center[0] + 0.45 * random.signed_unit();
+            const double y = center[1] + 0.45 * random.signed_unit();
+            const double z = center[2] + 0.45 * random.signed_unit();
             number.push_back(builder.vertex({x, y, z}));
         }
         for (std::size_t t = piece.triangles.size(); t > 1; --t) {

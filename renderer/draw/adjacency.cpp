@@ -119,7 +119,7 @@ void Silhouettes::set_frame(const Camera& camera, const Target& target, const Si
     frame.clip_from_view = target.clip_from_view(camera);
     const std::array<float, 3> eye = eye_of(camera);
     frame.eye = {eye[0], eye[1], eye[2], 1};
-    frame.colour = style.colour;
+    frame.color = style.color;
     std::memcpy(frame_.mapped(), &frame, sizeof(frame));
     line_width_ = std::clamp(style.width, 1.0F, context_->info().max_line_width);
     // No cosine is below -2, even with rounding errors: no edge is a crease.
@@ -128,7 +128,7 @@ void Silhouettes::set_frame(const Camera& camera, const Target& target, const Si
 
 void Silhouettes::record(VkCommandBuffer commands, const Adjacency& adjacency, const Target& target) const {
     Target::between(commands);
-    target.begin(commands, {.colour = true});
+    target.begin(commands, {.color = true});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     vkCmdSetLineWidth(commands, line_width_);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.pipeline(), 0, 1, &set_, 0, nullptr);

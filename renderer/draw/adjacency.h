@@ -58,7 +58,7 @@ class VertexNormals {
 
 struct SilhouetteStyle {
     double crease = 40;  ///< degrees: edges where the surface bends by more are drawn; 180 or more: none
-    std::array<float, 4> colour{0.03F, 0.03F, 0.03F, 1};
+    std::array<float, 4> color{0.03F, 0.03F, 0.03F, 1};
     float width = 1.5F;  ///< in supersampled pixels
 };
 

@@ -52,8 +52,8 @@ Frame frame_of(const glm::dvec3& back, const glm::dvec3& up) {
     return {right, glm::cross(back, right), back};
 }
 
-/// Returns the distance at which all used vertices fit in the picture; if `centre`, moves `focal` to center them.
-double fit(const Model& model, const Frame& frame, double tan_x, double tan_y, bool centre, glm::dvec3& focal) {
+/// Returns the distance at which all used vertices fit in the picture; if `center`, moves `focal` to center them.
+double fit(const Model& model, const Frame& frame, double tan_x, double tan_y, bool center, glm::dvec3& focal) {
     double distance = 0;
     for (int pass = 0; pass < 3; ++pass) {
         distance = 0;
@@ -69,7 +69,7 @@ double fit(const Model& model, const Frame& frame, double tan_x, double tan_y, b
             distance = std::max({distance, z + kMargin * std::abs(x) / tan_x, z + kMargin * std::abs(y) / tan_y});
         });
         distance = std::max(distance, 1e-3);
-        if (!centre) return distance;
+        if (!center) return distance;
         each([&](double x, double y, double z) {
             const double depth = std::max(distance - z, 1e-6);
             low_x = std::min(low_x, x / depth);
@@ -97,7 +97,7 @@ Result<Camera> make_camera(const Model& model, const CameraOptions& options, std
     if (!std::isfinite(options.azimuth) || !std::isfinite(options.elevation))
         return invalid("an angle is not a number");
 
-    const auto to_unit = [&](const std::array<double, 3>& p) { return (vec(p) - vec(model.centre)) / model.radius; };
+    const auto to_unit = [&](const std::array<double, 3>& p) { return (vec(p) - vec(model.center)) / model.radius; };
     glm::dvec3 focal = options.focal_point ? to_unit(*options.focal_point) : glm::dvec3(0.0);
     glm::dvec3 offset;  // from the focal point to the eye
     if (options.position) {
@@ -125,9 +125,9 @@ Result<Camera> make_camera(const Model& model, const CameraOptions& options, std
     distance /= options.zoom;
     const glm::dvec3 eye = focal + distance * frame.back;
 
-    const double to_centre = glm::length(eye);
-    const double far = to_centre + 1.01;
-    const double near = std::max(to_centre - 1.01, kSmallestNear * std::max(1.0, far));
+    const double to_center = glm::length(eye);
+    const double far = to_center + 1.01;
+    const double near = std::max(to_center - 1.01, kSmallestNear * std::max(1.0, far));
     Camera camera;
     camera.view_from_world = store(glm::lookAt(eye, focal, frame.up));
     camera.clip_from_view = store(glm::perspective(2 * std::atan(tan_y), aspect, near, far));

@@ -92,16 +92,16 @@ void Painter::set_frame(const Model& model, const Camera& camera, const Target& 
     const double pixels = model.mean_edge * camera.pixels_per_unit / samples_;
     const double strength = std::clamp((pixels - 1.0) / 9.0, 0.0, 1.0);
     if (view_ == View::wire) {
-        frame.line_colour = {0.07F, 0.08F, 0.10F, static_cast<float>(0.13 + 0.57 * strength)};
+        frame.line_color = {0.07F, 0.08F, 0.10F, static_cast<float>(0.13 + 0.57 * strength)};
         line_width_ = static_cast<float>(0.6 + 0.6 * strength) * static_cast<float>(samples_);
     } else if (view_ == View::seams) {
-        frame.line_colour = {0.80F, 0.06F, 0.03F, static_cast<float>(0.55 + 0.40 * strength)};
+        frame.line_color = {0.80F, 0.06F, 0.03F, static_cast<float>(0.55 + 0.40 * strength)};
         line_width_ = static_cast<float>(1.2 + 1.2 * strength) * static_cast<float>(samples_);
     } else {
         // In the views of ring order and offsets the colors matter more than the line.
         const double opacity = view_ == View::triangle_class ? 0.22 + 0.76 * strength : 0.10 + 0.80 * strength;
         const double closer = std::clamp((pixels - 10.0) / 40.0, 0.0, 1.0);
-        frame.line_colour = {0.03F, 0.03F, 0.03F, static_cast<float>(opacity)};
+        frame.line_color = {0.03F, 0.03F, 0.03F, static_cast<float>(opacity)};
         line_width_ = static_cast<float>(0.7 + 1.5 * strength + 1.3 * closer) * static_cast<float>(samples_);
     }
     line_width_ = std::clamp(line_width_, 1.0F, context_->info().max_line_width);
@@ -127,7 +127,7 @@ void Painter::record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPl
                      Ties ties) const {
     const Surface& triangles = surfaces_.at(key_of(mesh));
     target.prepare(commands);
-    Target::Use surface{.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true};
+    Target::Use surface{.color = true, .triangles = true, .clear_color = true, .clear_depth = true};
     if (ties == Ties::by_number) {
         target.begin(commands, {.clear_depth = true});
         triangles.draw(commands, Surface::depth, mesh, plan);
@@ -141,7 +141,7 @@ void Painter::record(VkCommandBuffer commands, const GpuMesh& mesh, const DrawPl
     Target::end(commands);
     if (!lines_.empty()) {
         Target::between(commands);
-        target.begin(commands, {.colour = true});
+        target.begin(commands, {.color = true});
         draw_lines(commands, mesh, plan);
         Target::end(commands);
     }

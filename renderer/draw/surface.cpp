@@ -79,7 +79,7 @@ Result<Surface> Surface::create(Context& context, const Layout& layout, View vie
         if (pass == claim) info.fragment = materials ? spirv_material_claim_frag : spirv_claim_frag;
         if (pass == resolve || pass == single) {
             info.fragment = materials ? spirv_material_frag : spirv_surface_frag;
-            info.colours = {Target::kColour, Target::kTriangles};
+            info.colors = {Target::kColor, Target::kTriangles};
         }
         LR_ASSIGN(out.pipelines_[pass], create_graphics(context, layout, info));
     }
@@ -131,7 +131,7 @@ GraphicsInfo line_pipeline(const char* name, const Shader& vertex, const Shader&
     info.depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL;
     info.depth_write = false;
     info.blend = true;
-    info.colours = {Target::kColour};
+    info.colors = {Target::kColor};
     return info;
 }
 

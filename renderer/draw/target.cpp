@@ -12,8 +12,8 @@
 namespace lacedring::gpu {
 namespace {
 
-constexpr Access kColourWrite{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                              VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT};
+constexpr Access kColorWrite{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                             VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT};
 constexpr Access kDepthWrite{
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
@@ -36,22 +36,22 @@ Result<Target> Target::create(Context& context, VkExtent2D extent, VkImageUsageF
     Target out;
     out.extent_ = extent;
     const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | more;
-    LR_ASSIGN(out.colour_, Image::create(context, "colour", extent, kColour, drawn));
+    LR_ASSIGN(out.color_, Image::create(context, "color", extent, kColor, drawn));
     LR_ASSIGN(out.triangles_, Image::create(context, "triangle numbers", extent, kTriangles, drawn));
     LR_ASSIGN(out.winner_, Image::create(context, "claims", extent, kTriangles,
                                          VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
     LR_ASSIGN(out.depth_, Image::create(context, "depth", extent, kDepth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
     const VkDeviceSize bytes = VkDeviceSize{4} * extent.width * extent.height;
-    LR_ASSIGN(out.colour_bytes_, Buffer::create(context, "colour bytes", bytes, 0, Memory::readback));
+    LR_ASSIGN(out.color_bytes_, Buffer::create(context, "color bytes", bytes, 0, Memory::readback));
     LR_ASSIGN(out.triangle_bytes_, Buffer::create(context, "triangle bytes", bytes, 0, Memory::readback));
     return out;
 }
 
 void Target::prepare(VkCommandBuffer commands) const {
     constexpr VkImageLayout kNone = VK_IMAGE_LAYOUT_UNDEFINED;
-    image_barrier(commands, colour_.handle(), colour_.aspect(), kBefore, kColourWrite, kNone,
+    image_barrier(commands, color_.handle(), color_.aspect(), kBefore, kColorWrite, kNone,
                   VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    image_barrier(commands, triangles_.handle(), triangles_.aspect(), kBefore, kColourWrite, kNone,
+    image_barrier(commands, triangles_.handle(), triangles_.aspect(), kBefore, kColorWrite, kNone,
                   VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     image_barrier(commands, depth_.handle(), depth_.aspect(), kBefore, kDepthWrite, kNone,
                   VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
@@ -87,17 +87,17 @@ void Target::begin(VkCommandBuffer commands, const Use& use) const {
         info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
         return info;  // the clear value is zero: transparent, triangle 0
     };
-    constexpr VkImageLayout kColourLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    const std::array<VkRenderingAttachmentInfo, 2> colours{attachment(colour_, kColourLayout, use.clear_colour),
-                                                           attachment(triangles_, kColourLayout, use.clear_colour)};
+    constexpr VkImageLayout kColorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    const std::array<VkRenderingAttachmentInfo, 2> colors{attachment(color_, kColorLayout, use.clear_color),
+                                                          attachment(triangles_, kColorLayout, use.clear_color)};
     VkRenderingAttachmentInfo depth = attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, use.clear_depth);
     depth.clearValue.depthStencil.depth = 1.0F;
     VkRenderingInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     info.renderArea = {{0, 0}, extent_};
     info.layerCount = 1;
-    info.colorAttachmentCount = (use.colour ? 1U : 0U) + (use.triangles ? 1U : 0U);
-    info.pColorAttachments = colours.data();
+    info.colorAttachmentCount = (use.color ? 1U : 0U) + (use.triangles ? 1U : 0U);
+    info.pColorAttachments = colors.data();
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
     // Negative height, as y points down in Vulkan's clip space. The square surrounds the picture (see clip_from_view).
@@ -114,21 +114,21 @@ void Target::end(VkCommandBuffer commands) {
 }
 
 void Target::between(VkCommandBuffer commands) {
-    const Access all{kColourWrite.stage | kDepthWrite.stage | kClaim.stage,
-                     kColourWrite.access | kDepthWrite.access | kClaim.access};
+    const Access all{kColorWrite.stage | kDepthWrite.stage | kClaim.stage,
+                     kColorWrite.access | kDepthWrite.access | kClaim.access};
     memory_barrier(commands, all, all);
 }
 
 void Target::record_read(VkCommandBuffer commands) const {
     const auto copy = [&](const Image& image, const Buffer& to) {
-        image_barrier(commands, image.handle(), image.aspect(), kColourWrite, kCopyRead,
+        image_barrier(commands, image.handle(), image.aspect(), kColorWrite, kCopyRead,
                       VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         VkBufferImageCopy region{};
         region.imageSubresource = {image.aspect(), 0, 0, 1};
         region.imageExtent = {extent_.width, extent_.height, 1};
         vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1, &region);
     };
-    copy(colour_, colour_bytes_);
+    copy(color_, color_bytes_);
     copy(triangles_, triangle_bytes_);
     memory_barrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                    {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
@@ -140,7 +140,7 @@ Picture Target::picture() const {
     out.height = extent_.height;
     out.rgba.resize(4 * out.pixels());
     out.triangles.resize(out.pixels());
-    std::memcpy(out.rgba.data(), colour_bytes_.mapped(), out.rgba.size());
+    std::memcpy(out.rgba.data(), color_bytes_.mapped(), out.rgba.size());
     std::memcpy(out.triangles.data(), triangle_bytes_.mapped(), 4 * out.pixels());
     return out;
 }

@@ -10,7 +10,7 @@ namespace lacedring::gpu {
 
 class Target {
   public:
-    static constexpr VkFormat kColour = VK_FORMAT_R8G8B8A8_UNORM;
+    static constexpr VkFormat kColor = VK_FORMAT_R8G8B8A8_UNORM;
     static constexpr VkFormat kTriangles = VK_FORMAT_R32_UINT;
     static constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 
@@ -25,7 +25,7 @@ class Target {
     /// and translation (lavapipe fuses them after a vertex shader, but not after a geometry shader).
     mat4 clip_from_view(const Camera& camera) const;
     const Image& winner() const { return winner_; }
-    const Image& colour() const { return colour_; }
+    const Image& color() const { return color_; }
     const Image& triangles() const { return triangles_; }
 
     /// Transitions every image to its layout, dropping its contents, and clears the claims.
@@ -33,9 +33,9 @@ class Target {
 
     /// The attachments of a rendering instance, and which of them it clears.
     struct Use {
-        bool colour = false;
+        bool color = false;
         bool triangles = false;
-        bool clear_colour = false;  ///< clears colors and triangle numbers
+        bool clear_color = false;  ///< clears colors and triangle numbers
         bool clear_depth = false;
     };
     void begin(VkCommandBuffer commands, const Use& use) const;
@@ -51,8 +51,8 @@ class Target {
     std::uint32_t viewport_side() const;
 
     VkExtent2D extent_{};
-    Image colour_, triangles_, winner_, depth_;
-    Buffer colour_bytes_, triangle_bytes_;
+    Image color_, triangles_, winner_, depth_;
+    Buffer color_bytes_, triangle_bytes_;
 };
 
 }  // namespace lacedring::gpu

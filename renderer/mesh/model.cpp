@@ -28,7 +28,7 @@ double dot(const Point& a, const Point& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-Result<void> normalise(Model& model) {
+Result<void> normalize(Model& model) {
     Point low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
@@ -40,10 +40,10 @@ Result<void> normalise(Model& model) {
             high[i] = std::max(high[i], p[i]);
         }
     }
-    for (std::size_t i = 0; i < 3; ++i) model.centre[i] = static_cast<float>(0.5 * (low[i] + high[i]));
+    for (std::size_t i = 0; i < 3; ++i) model.center[i] = static_cast<float>(0.5 * (low[i] + high[i]));
     double squared = 0;
     for (const std::uint32_t v : model.indices) {
-        const Point d = minus(point(model.positions, v), model.centre);
+        const Point d = minus(point(model.positions, v), model.center);
         squared = std::max(squared, dot(d, d));
     }
     model.radius = std::sqrt(squared);
@@ -53,12 +53,12 @@ Result<void> normalise(Model& model) {
     // Keeps the scale a normal float: a device may flush denormal floats to 0.
     const float scale = std::clamp(static_cast<float>(1 / model.radius), 0x1p-126F, 0x1p126F);
     model.radius = 1 / static_cast<double>(scale);
-    for (std::size_t i = 0; i < 3; ++i) model.unit[i] = static_cast<float>(model.centre[i]);
+    for (std::size_t i = 0; i < 3; ++i) model.unit[i] = static_cast<float>(model.center[i]);
     model.unit[3] = scale;
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
         // Doubles, so that no compiler fuses the two steps. The result is the same: a single float sum or product
         // computed in double and then rounded to float is correctly rounded.
-        const auto moved = static_cast<float>(static_cast<double>(model.positions[i]) - model.centre[i % 3]);
+        const auto moved = static_cast<float>(static_cast<double>(model.positions[i]) - model.center[i % 3]);
         const auto scaled = static_cast<float>(static_cast<double>(moved) * static_cast<double>(scale));
         model.positions[i] = std::clamp(scaled, -1e6F, 1e6F);
     }
@@ -126,7 +126,7 @@ Result<void> encode_positions(Model& model, const Mesh& mesh, const VertexOption
     LR_ASSIGN(const Model moved, make_surface(decoded, model.surface));
     model.positions = moved.positions;
     model.normals = moved.normals;
-    model.centre = moved.centre;
+    model.center = moved.center;
     model.radius = moved.radius;
     model.unit = moved.unit;
     model.mean_edge = moved.mean_edge;
@@ -168,7 +168,7 @@ Result<Model> make_surface(const Mesh& mesh, const lacedring::Surface& surface) 
         }
         model.normals = surface_normals(mesh, surface);
     }
-    LR_TRY(normalise(model));
+    LR_TRY(normalize(model));
     model.mean_edge = mean_edge(model);
     return model;
 }
@@ -194,7 +194,7 @@ void add_materials(Model& model, const Mesh& mesh, const Materials& materials) {
         std::memcpy(color.data(), colors + sizeof color * v, sizeof color);
         for (std::size_t c = 0; c < 4; ++c) {
             const float part = color[c] >= 0 ? std::min(color[c], 1.0F) : 0.0F;
-            to.colour[c] = static_cast<std::uint16_t>(part * static_cast<float>(kOne) + 0.5F);
+            to.color[c] = static_cast<std::uint16_t>(part * static_cast<float>(kOne) + 0.5F);
         }
     }
 }

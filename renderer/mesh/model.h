@@ -21,8 +21,8 @@ namespace lacedring::gpu {
 
 /// Texture coordinates and color of a vertex for View::material: LR_SHADING_WORDS words.
 struct Shading {
-    float texture[4];         ///< TEXCOORD_0, TEXCOORD_1
-    std::uint16_t colour[4];  ///< COLOR_0, 65535 is 1
+    float texture[4];        ///< TEXCOORD_0, TEXCOORD_1
+    std::uint16_t color[4];  ///< COLOR_0, 65535 is 1
 };
 
 /// Positions are moved and scaled so that the used vertices fill the unit sphere: f32 depth and derivatives then have
@@ -38,7 +38,7 @@ struct Model {
     lacedring::Surface surface;             ///< the surface that the streams encode
     EncodedSeams lean_seams, packed_seams;  ///< if the mesh has seams. copy_order: the mesh's vertex of every copy
     std::string exact;                      ///< why `vertices` is lossless although a lattice was requested, or empty
-    std::array<double, 3> centre{};         ///< of the unit sphere, in the mesh's coordinates; float values
+    std::array<double, 3> center{};         ///< of the unit sphere, in the mesh's coordinates; float values
     double radius = 1;                      ///< of the unit sphere, in the mesh's coordinates
     std::array<float, 4> unit{0, 0, 0, 1};  ///< center and 1 / radius: DrawConstants::unit
     const Materials* materials = nullptr;   ///< for View::material; must outlive the model. Null: none

@@ -28,9 +28,9 @@ using Marks = std::vector<std::uint8_t>;
 
 void mark(Marks& marks, const Picture& a, const Picture& b, std::uint8_t bit) {
     for (std::size_t i = 0; i < a.pixels(); ++i) {
-        const bool colour = !std::equal(&a.rgba[4 * i], &a.rgba[4 * i] + 4, &b.rgba[4 * i]);
+        const bool color = !std::equal(&a.rgba[4 * i], &a.rgba[4 * i] + 4, &b.rgba[4 * i]);
         // Where triangles coincide, raw pictures may show different triangles: there, only colors are compared.
-        if (colour || (bit == 1 && a.triangles[i] != b.triangles[i]))
+        if (color || (bit == 1 && a.triangles[i] != b.triangles[i]))
             marks[i] = static_cast<std::uint8_t>(marks[i] | bit);
     }
 }
@@ -44,20 +44,20 @@ void paste(Picture& sheet, const Picture& view, const Marks& marks, std::uint32_
     for (std::uint32_t y = 0; y < view.height; ++y) {
         for (std::uint32_t x = 0; x < view.width; ++x) {
             const std::uint8_t* p = &view.rgba[4 * (std::size_t{y} * view.width + x)];
-            const std::uint32_t grey = (54U * p[0] + 183U * p[1] + 19U * p[2]) / 256;
-            const auto pale = static_cast<std::uint8_t>(p[3] == 0 ? 255 : 110 + grey / 2);
+            const std::uint32_t gray = (54U * p[0] + 183U * p[1] + 19U * p[2]) / 256;
+            const auto pale = static_cast<std::uint8_t>(p[3] == 0 ? 255 : 110 + gray / 2);
             std::fill_n(at(x, y), 3, pale);
             at(x, y)[3] = 255;
         }
     }
-    constexpr std::array<std::array<std::uint8_t, 3>, 2> kColours{{{245, 160, 0}, {220, 0, 0}}};
+    constexpr std::array<std::array<std::uint8_t, 3>, 2> kColors{{{245, 160, 0}, {220, 0, 0}}};
     for (const std::uint8_t bit : {std::uint8_t{2}, std::uint8_t{1}}) {
         for (std::uint32_t y = 0; y < view.height; ++y) {
             for (std::uint32_t x = 0; x < view.width; ++x) {
                 if ((marks[std::size_t{y} * view.width + x] & bit) == 0) continue;
                 for (std::uint32_t j = y < 2 ? 0 : y - 2; j <= std::min(y + 2, view.height - 1); ++j) {
                     for (std::uint32_t i = x < 2 ? 0 : x - 2; i <= std::min(x + 2, view.width - 1); ++i) {
-                        std::copy_n(kColours[bit == 1 ? 1 : 0].data(), 3, at(i, j));
+                        std::copy_n(kColors[bit == 1 ? 1 : 0].data(), 3, at(i, j));
                     }
                 }
             }

@@ -148,11 +148,11 @@ std::vector<std::string> missing_features(VkPhysicalDevice device) {
     };
     need_format(VK_FORMAT_R8G8B8A8_UNORM,
                 VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,
-                "R8G8B8A8_UNORM as a blended colour attachment");
+                "R8G8B8A8_UNORM as a blended color attachment");
     need_format(VK_FORMAT_R32_UINT,
                 VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_ATOMIC_BIT |
                     VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,
-                "R32_UINT as a colour attachment and with atomics");
+                "R32_UINT as a color attachment and with atomics");
     need_format(VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D32_SFLOAT as a depth buffer");
     if (!graphics_compute_family(device)) missing.emplace_back("a queue for graphics and compute");
     return missing;

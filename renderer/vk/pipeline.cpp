@@ -201,7 +201,7 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
         attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
         attachment.alphaBlendOp = VK_BLEND_OP_ADD;
     }
-    const std::vector<VkPipelineColorBlendAttachmentState> attachments(info.colours.size(), attachment);
+    const std::vector<VkPipelineColorBlendAttachmentState> attachments(info.colors.size(), attachment);
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
@@ -215,8 +215,8 @@ Result<PipelineHandle> create_graphics(Context& context, const Layout& layout, c
     dynamic.pDynamicStates = dynamic_states.data();
     VkPipelineRenderingCreateInfo rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
-    rendering.colorAttachmentCount = static_cast<std::uint32_t>(info.colours.size());
-    rendering.pColorAttachmentFormats = info.colours.data();
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(info.colors.size());
+    rendering.pColorAttachmentFormats = info.colors.data();
     rendering.depthAttachmentFormat = VK_FORMAT_D32_SFLOAT;
 
     VkGraphicsPipelineCreateInfo create{};

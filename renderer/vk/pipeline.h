@@ -85,7 +85,7 @@ struct GraphicsInfo {
     bool depth_write = true;
     bool push_back = false;  ///< moves triangles a little away from the eye, so that lines can be drawn over them
     bool blend = false;      ///< draws over, by the source's opacity; the result is premultiplied
-    std::vector<VkFormat> colours;
+    std::vector<VkFormat> colors;
     VkVertexInputBindingDescription vertex_binding{};  ///< used if there are attributes
     std::vector<VkVertexInputAttributeDescription> vertex_attributes;
 };

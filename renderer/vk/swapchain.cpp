@@ -151,20 +151,20 @@ Result<Swapchain::Fit> Swapchain::rebuild() {
 }
 
 void Swapchain::record(VkImage to, const Image& image, VkExtent2D extent) const {
-    constexpr VkImageAspectFlags kColour = VK_IMAGE_ASPECT_COLOR_BIT;
+    constexpr VkImageAspectFlags kColor = VK_IMAGE_ASPECT_COLOR_BIT;
     constexpr Access kBlit{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
     // Drops the image's contents. The submission waits for the acquired image in the transfer stage.
-    image_barrier(commands_, to, kColour, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE}, kBlit,
+    image_barrier(commands_, to, kColor, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE}, kBlit,
                   VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkImageBlit region{};
-    region.srcSubresource = {kColour, 0, 0, 1};
+    region.srcSubresource = {kColor, 0, 0, 1};
     region.srcOffsets[1] = {static_cast<std::int32_t>(extent.width), static_cast<std::int32_t>(extent.height), 1};
-    region.dstSubresource = {kColour, 0, 0, 1};
+    region.dstSubresource = {kColor, 0, 0, 1};
     region.dstOffsets[1] = {static_cast<std::int32_t>(extent_.width), static_cast<std::int32_t>(extent_.height), 1};
     const bool same = extent.width == extent_.width && extent.height == extent_.height;
     vkCmdBlitImage(commands_, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
-    image_barrier(commands_, to, kColour, kBlit, {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
+    image_barrier(commands_, to, kColor, kBlit, {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 

@@ -25,7 +25,7 @@ struct SilhouetteFrame {
     mat4 view_from_world;
     mat4 clip_from_view;
     vec4 eye;  // in world space
-    vec4 colour;
+    vec4 color;
 };
 
 // Constants of one draw, or of one dispatch of silhouette_edges.comp. Line 3t + k is the edge opposite corner 4t + k.

@@ -12,9 +12,9 @@ layout(push_constant) uniform Push {
 } push;
 layout(std430, binding = 0) readonly buffer Tables { uint words[]; };
 layout(std430, binding = 1) writeonly buffer Out { uint results[]; };
-// Start of each vertex's neighbors in `neighbours`; one more entry for the end of the last.
+// Start of each vertex's neighbors in `neighbors`; one more entry for the end of the last.
 layout(std430, binding = 2) readonly buffer Begins { uint begins[]; };
-layout(std430, binding = 3) writeonly buffer Neighbours { uint neighbours[]; };
+layout(std430, binding = 3) writeonly buffer Neighbors { uint neighbors[]; };
 
 // Clamped, as tests also pass malformed tables.
 #define LR_TABLE_WORD(i) words[min(i, uint(words.length()) - 1u)]
@@ -37,14 +37,14 @@ void vertex_operators(LrOpLayout lr, uint v, uint at) {
     uint first = lr_star_first(lr, v), c = first, last = LR_TABLE_NULL, count = 0u;
     uint begin = begins[v - push.first], room = begins[v - push.first + 1u] - begin;
     for (uint left = lr_triangle_numbers(lr); c != LR_TABLE_NULL && left > 0u; --left) {
-        if (count < room) neighbours[begin + count] = lr_vertex(lr, lr_next(c));
+        if (count < room) neighbors[begin + count] = lr_vertex(lr, lr_next(c));
         ++count;
         last = c;
         c = lr_swing(lr, c);
         if (c == first) break;
     }
     if (last != LR_TABLE_NULL && c == LR_TABLE_NULL) {
-        if (count < room) neighbours[begin + count] = lr_vertex(lr, lr_previous(last));
+        if (count < room) neighbors[begin + count] = lr_vertex(lr, lr_previous(last));
         ++count;
     }
     results[at] = lr_corner(lr, v);

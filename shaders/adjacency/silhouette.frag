@@ -3,6 +3,6 @@
 #include "shaders/adjacency/adjacency_shared.h"
 
 layout(binding = 0) uniform Frame { SilhouetteFrame frame; };
-layout(location = 0) out vec4 out_colour;
+layout(location = 0) out vec4 out_color;
 
-void main() { out_colour = frame.colour; }
+void main() { out_color = frame.color; }

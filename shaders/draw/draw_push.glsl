@@ -13,7 +13,7 @@ layout(constant_id = LR_CONSTANT_SEAMS) const bool seams = false;
 
 layout(push_constant) uniform Push { DrawConstants push; };
 
-// Moves a position from the source's coordinates into the unit sphere, bit for bit like normalise() in
+// Moves a position from the source's coordinates into the unit sphere, bit for bit like normalize() in
 // renderer/mesh/model.cpp.
 vec3 unit_position(vec3 position) {
     precise vec3 moved = position - push.unit.xyz;

@@ -3,6 +3,6 @@
 #include "shaders/shared.h"
 
 layout(binding = 0) uniform Frame { FrameConstants frame; };
-layout(location = 0) out vec4 out_colour;
+layout(location = 0) out vec4 out_color;
 
-void main() { out_colour = frame.line_colour; }
+void main() { out_color = frame.line_color; }

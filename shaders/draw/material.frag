@@ -8,7 +8,7 @@ layout(constant_id = 1) const bool resolve = false;  // only the triangle that c
 
 layout(binding = 3, r32ui) uniform readonly uimage2D winner;
 
-layout(location = 0) out vec4 out_colour;
+layout(location = 0) out vec4 out_color;
 layout(location = 1) out uint out_triangle;
 
 float srgb(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055; }
@@ -80,15 +80,15 @@ vec3 lit(MaterialConstants m, Steps steps, vec3 base, vec3 dx, vec3 dy) {
     vec3 n = normal_of(m, steps, dx, dy), to_eye = normalize(-in_position);
     vec3 diffuse = base * (1.0 - metallic), f0 = mix(vec3(0.04), base, metallic);
     const vec3 key = normalize(vec3(-0.45, 0.72, 0.62)), fill = normalize(vec3(0.80, 0.05, 0.45));
-    vec3 colour = reflected(n, key, to_eye, diffuse, f0, rough) * vec3(0.94, 0.89, 0.82) +
+    vec3 color = reflected(n, key, to_eye, diffuse, f0, rough) * vec3(0.94, 0.89, 0.82) +
                   reflected(n, fill, to_eye, diffuse, f0, rough) * vec3(0.16, 0.19, 0.24);
     // Adds the light of the sky: its mean over the hemisphere, and its reflection.
     float nv = clamp(dot(n, to_eye), 0.0, 1.0);
     vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
     vec2 part = vec2(-1.04, 1.04) * a + r.zw;
-    colour += open * (0.54 * diffuse * sky(n, 1.0) + (f0 * part.x + part.y) * sky(reflect(-to_eye, n), rough));
-    return colour;
+    color += open * (0.54 * diffuse * sky(n, 1.0) + (f0 * part.x + part.y) * sky(reflect(-to_eye, n), rough));
+    return color;
 }
 
 void main() {
@@ -99,12 +99,12 @@ void main() {
     vec4 base = base_of(m, steps);
     if (resolve && imageLoad(winner, ivec2(gl_FragCoord.xy)).x != triangle) discard;
     if (is_hidden(m, base.a)) discard;
-    vec3 colour = base.rgb;
+    vec3 color = base.rgb;
     if ((m.flags.x & LR_MATERIAL_UNLIT) == 0u) {
-        colour = lit(m, steps, base.rgb, dx, dy) + m.emissive.rgb * sampled(m.emitting, steps, true).rgb;
-        colour = toned(colour);
+        color = lit(m, steps, base.rgb, dx, dy) + m.emissive.rgb * sampled(m.emitting, steps, true).rgb;
+        color = toned(color);
     }
-    colour = clamp(colour, vec3(0.0), vec3(1.0));
-    out_colour = vec4(srgb(colour.x), srgb(colour.y), srgb(colour.z), 1.0);
+    color = clamp(color, vec3(0.0), vec3(1.0));
+    out_color = vec4(srgb(color.x), srgb(color.y), srgb(color.z), 1.0);
     out_triangle = (triangle + 1u) | (gl_FrontFacing ? LR_FRONT_FLAG : 0u);
 }

@@ -10,7 +10,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Ma
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 3) in vec4 in_texture_at;
-layout(location = 4) in vec4 in_colour;
+layout(location = 4) in vec4 in_color;
 
 MaterialConstants material_of(uint triangle) {
     MaterialTable table = MaterialTable(push.materials);
@@ -41,11 +41,11 @@ vec4 texel(TextureConstants t, uint first, ivec2 size, ivec2 at) {
 }
 
 // From sRGB to linear, by a cheap approximation, as it is applied to every texel before interpolation.
-vec4 linear(vec4 c, bool is_colour) {
-    return is_colour ? vec4(c.rgb * (c.rgb * (c.rgb * 0.305306011 + 0.682171111) + 0.012522878), c.a) : c;
+vec4 linear(vec4 c, bool is_color) {
+    return is_color ? vec4(c.rgb * (c.rgb * (c.rgb * 0.305306011 + 0.682171111) + 0.012522878), c.a) : c;
 }
 
-vec4 level_at(TextureConstants t, uint level, vec2 uv, bool is_colour) {
+vec4 level_at(TextureConstants t, uint level, vec2 uv, bool is_color) {
     uint first = t.first;
     ivec2 size = ivec2(t.size & 0xffffu, t.size >> 16);
     for (uint i = 0u; i < level; ++i) {
@@ -54,19 +54,19 @@ vec4 level_at(TextureConstants t, uint level, vec2 uv, bool is_colour) {
     }
     vec2 at = clamp(uv * vec2(size), vec2(-1e8), vec2(1e8));
     if ((t.sampling & LR_TEXTURE_NEAREST) != 0u)
-        return linear(texel(t, first, size, ivec2(floor(at))), is_colour);
+        return linear(texel(t, first, size, ivec2(floor(at))), is_color);
     at -= 0.5;
     ivec2 low = ivec2(floor(at));
     vec2 part = at - vec2(low);
-    vec4 a = linear(texel(t, first, size, low), is_colour);
-    vec4 b = linear(texel(t, first, size, low + ivec2(1, 0)), is_colour);
-    vec4 c = linear(texel(t, first, size, low + ivec2(0, 1)), is_colour);
-    vec4 d = linear(texel(t, first, size, low + ivec2(1, 1)), is_colour);
+    vec4 a = linear(texel(t, first, size, low), is_color);
+    vec4 b = linear(texel(t, first, size, low + ivec2(1, 0)), is_color);
+    vec4 c = linear(texel(t, first, size, low + ivec2(0, 1)), is_color);
+    vec4 d = linear(texel(t, first, size, low + ivec2(1, 1)), is_color);
     return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
 }
 
 // The texture's value at the fragment; white if there is no texture.
-vec4 sampled(TextureConstants t, Steps steps, bool is_colour) {
+vec4 sampled(TextureConstants t, Steps steps, bool is_color) {
     if (t.size == 0u) return vec4(1.0);
     vec2 set = set_of(t, in_texture_at);
     vec2 uv = vec2(dot(t.u.xy, set) + t.u.z, dot(t.v.xy, set) + t.v.z);
@@ -75,14 +75,14 @@ vec4 sampled(TextureConstants t, Steps steps, bool is_colour) {
     dy = vec2(dot(t.u.xy, dy), dot(t.v.xy, dy)) * size;
     float level = clamp(0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-12)), 0.0, float(t.levels - 1u));
     uint low = uint(level);
-    vec4 value = level_at(t, low, uv, is_colour);
+    vec4 value = level_at(t, low, uv, is_color);
     float part = level - float(low);
-    if (part > 0.0) value = mix(value, level_at(t, low + 1u, uv, is_colour), part);
+    if (part > 0.0) value = mix(value, level_at(t, low + 1u, uv, is_color), part);
     return value;
 }
 
 // The surface's color before lighting: material, vertex color and texture.
-vec4 base_of(MaterialConstants m, Steps steps) { return m.base_color * in_colour * sampled(m.base, steps, true); }
+vec4 base_of(MaterialConstants m, Steps steps) { return m.base_color * in_color * sampled(m.base, steps, true); }
 
 // True if the material hides this fragment. Partly transparent surfaces are dithered: they hide some samples, so that
 // the order of triangles does not matter.

@@ -11,9 +11,9 @@ layout(binding = 3, r32ui) uniform readonly uimage2D winner;
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
-layout(location = 2) in vec3 in_ring_colour;
+layout(location = 2) in vec3 in_ring_color;
 
-layout(location = 0) out vec4 out_colour;
+layout(location = 0) out vec4 out_color;
 layout(location = 1) out uint out_triangle;
 
 // This triangle's byte of `classes`.
@@ -22,7 +22,7 @@ uint slot_class() {
     return (classes[i / 4u] >> (8u * (i % 4u))) & 0xffu;
 }
 
-vec3 class_colour() {
+vec3 class_color() {
     uint c = slot_class();
     if (c == LR_CLASS_T0) return vec3(0.13, 0.42, 0.10);
     if (c == LR_CLASS_T1_LEFT) return vec3(0.82, 0.70, 0.44);
@@ -33,7 +33,7 @@ vec3 class_colour() {
 }
 
 // Colors for 1 to 16 bits (yellow, red, violet); more bits like 16; T0 green.
-vec3 offset_colour() {
+vec3 offset_color() {
     uint bits = slot_class();
     if (bits == LR_OFFSET_T0) return vec3(0.13, 0.42, 0.10);
     if (bits == LR_OFFSET_NONE) return vec3(0.30);
@@ -70,13 +70,13 @@ void main() {
     vec3 albedo = vec3(0.62, 0.60, 0.565);
     float gloss = 1.0;
     if (view == LR_VIEW_CLASS) {
-        albedo = class_colour();
+        albedo = class_color();
         gloss = 0.25;
     } else if (view == LR_VIEW_OFFSETS) {
-        albedo = offset_colour();
+        albedo = offset_color();
         gloss = 0.25;
     } else if (view == LR_VIEW_RING) {
-        albedo = in_ring_colour;
+        albedo = in_ring_color;
         gloss = 0.35;
     } else if (view == LR_VIEW_SILHOUETTE) {
         albedo = vec3(0.80, 0.78, 0.74);
@@ -85,19 +85,19 @@ void main() {
         albedo = vec3(0.66, 0.68, 0.70);
         gloss = 0.2;
     }
-    vec3 colour;
+    vec3 color;
     if (view == LR_VIEW_SMOOTH || view == LR_VIEW_RING || view == LR_VIEW_SILHOUETTE || view == LR_VIEW_SEAMS) {
         // Both sides are lit and blended by the normal's direction, not chosen by gl_FrontFacing: at a silhouette, two
         // neighbors that face toward and away from the eye have nearly the same depth, so rounding decides which is
         // visible, and both must look the same.
         vec3 n = normalize(in_normal);
         float facing = dot(n, normalize(-in_position));
-        colour = mix(lit(albedo, -n, gloss), lit(albedo, n, gloss), smoothstep(-0.12, 0.12, facing));
+        color = mix(lit(albedo, -n, gloss), lit(albedo, n, gloss), smoothstep(-0.12, 0.12, facing));
     } else {
         vec3 n = dot(facet, facet) > 0.0 ? normalize(facet) : vec3(0.0, 0.0, 1.0);
-        colour = lit(albedo, dot(n, in_position) > 0.0 ? -n : n, gloss);
+        color = lit(albedo, dot(n, in_position) > 0.0 ? -n : n, gloss);
     }
-    colour = min(colour, vec3(1.0));
-    out_colour = vec4(srgb(colour.x), srgb(colour.y), srgb(colour.z), 1.0);
+    color = min(color, vec3(1.0));
+    out_color = vec4(srgb(color.x), srgb(color.y), srgb(color.z), 1.0);
     out_triangle = (triangle + 1u) | (gl_FrontFacing ? LR_FRONT_FLAG : 0u);
 }

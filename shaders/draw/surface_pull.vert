@@ -6,9 +6,9 @@
 
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
-layout(location = 2) out vec3 out_ring_colour;
+layout(location = 2) out vec3 out_ring_color;
 layout(location = 3) out vec4 out_texture_at;
-layout(location = 4) out vec4 out_colour;
+layout(location = 4) out vec4 out_color;
 
 invariant gl_Position;
 
@@ -20,7 +20,7 @@ void main() {
     gl_Position = v.clip;
     out_position = v.position;
     out_normal = v.normal;
-    out_ring_colour = v.ring_colour;
+    out_ring_color = v.ring_color;
     out_texture_at = v.texture_at;
-    out_colour = v.colour;
+    out_color = v.color;
 }

@@ -9,12 +9,12 @@ struct SurfaceVertex {
     vec4 clip;
     vec3 position;  // position and normal are in view space
     vec3 normal;
-    vec3 ring_colour;
+    vec3 ring_color;
     vec4 texture_at;  // two sets of texture coordinates
-    vec4 colour;
+    vec4 color;
 };
 
-vec3 ring_colour(float t) {
+vec3 ring_color(float t) {
     if (t < 0.0) return vec3(0.42);
     // Blue, teal, sand, red, in even steps of lightness, so that neighboring corridors can be told apart.
     const vec3 stops[5] = vec3[](vec3(0.045, 0.085, 0.50), vec3(0.03, 0.34, 0.72), vec3(0.62, 0.78, 0.72),
@@ -33,15 +33,15 @@ SurfaceVertex surface_vertex(vec3 position, vec3 normal, float ring, uint number
     v.clip = clip;
     v.position = from_eye.xyz;
     v.normal = mat3(frame.view_from_world) * normal;
-    v.ring_colour = view == LR_VIEW_RING ? ring_colour(ring) : vec3(0.0);
+    v.ring_color = view == LR_VIEW_RING ? ring_color(ring) : vec3(0.0);
     v.texture_at = vec4(0.0);
-    v.colour = vec4(1.0);
+    v.color = vec4(1.0);
     if (view == LR_VIEW_MATERIAL) {
         Words shading = Words(push.shading);
         uint at = LR_SHADING_WORDS * number;
         v.texture_at = uintBitsToFloat(
             uvec4(shading.at[at], shading.at[at + 1u], shading.at[at + 2u], shading.at[at + 3u]));
-        v.colour = vec4(unpackUnorm2x16(shading.at[at + 4u]), unpackUnorm2x16(shading.at[at + 5u]));
+        v.color = vec4(unpackUnorm2x16(shading.at[at + 4u]), unpackUnorm2x16(shading.at[at + 5u]));
     }
     return v;
 }

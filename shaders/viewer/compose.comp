@@ -5,9 +5,9 @@
 #include "shaders/viewer/compose_shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba8) uniform readonly image2D left_colour;
+layout(binding = 0, rgba8) uniform readonly image2D left_color;
 layout(binding = 1, r32ui) uniform readonly uimage2D left_triangles;
-layout(binding = 2, rgba8) uniform readonly image2D right_colour;
+layout(binding = 2, rgba8) uniform readonly image2D right_color;
 layout(binding = 3, r32ui) uniform readonly uimage2D right_triangles;
 layout(binding = 4, rgba8) uniform writeonly image2D composed;
 layout(std430, binding = 5) readonly buffer Paint { uint paint[]; };  // RGBA, one per triangle of the mesh
@@ -36,13 +36,13 @@ vec3 background(vec2 at) {
 }
 
 // Replaces the surface's color by `over`, keeping the light on it.
-vec3 recoloured(vec3 colour, vec4 over) {
-    vec3 light = linear(colour) / vec3(0.62, 0.60, 0.565);
+vec3 recolored(vec3 color, vec4 over) {
+    vec3 light = linear(color) / vec3(0.62, 0.60, 0.565);
     if ((kPaint & LR_PAINT_FLAT) != 0u) {
-        light = vec3(smoothstep(0.002, 0.02, dot(linear(colour), vec3(0.2126, 0.7152, 0.0722))));
+        light = vec3(smoothstep(0.002, 0.02, dot(linear(color), vec3(0.2126, 0.7152, 0.0722))));
     }
     vec3 lit = srgb(min(linear(over.rgb) * light, vec3(1.0)));
-    return mix(colour, lit, over.a);
+    return mix(color, lit, over.a);
 }
 
 uint triangle_at(bool right, ivec2 at) {
@@ -50,14 +50,14 @@ uint triangle_at(bool right, ivec2 at) {
 }
 
 // The colors that the panel explains (app/view/ui/panel_choices.cpp).
-vec3 growth_colour(uint step) {
+vec3 growth_color(uint step) {
     uint settled = step & ~LR_GROWTH_RIGHT;
-    if (settled >= push.invaded) return vec3(LR_GROWTH_NOT_YET_COLOUR) / 255.0;
-    if (step >= LR_GROWTH_RIGHT) return vec3(LR_GROWTH_RIGHT_COLOUR) / 255.0;
+    if (settled >= push.invaded) return vec3(LR_GROWTH_NOT_YET_COLOR) / 255.0;
+    if (step >= LR_GROWTH_RIGHT) return vec3(LR_GROWTH_RIGHT_COLOR) / 255.0;
     uint age = push.invaded - 1u - settled;
-    vec3 invaded = vec3(LR_GROWTH_INVADED_COLOUR) / 255.0;
+    vec3 invaded = vec3(LR_GROWTH_INVADED_COLOR) / 255.0;
     if (age >= push.fresh) return invaded;
-    return mix(vec3(LR_GROWTH_NEWEST_COLOUR) / 255.0, invaded, 0.6 * float(age) / float(push.fresh));
+    return mix(vec3(LR_GROWTH_NEWEST_COLOR) / 255.0, invaded, 0.6 * float(age) / float(push.fresh));
 }
 
 uvec3 triangles_across(uint i) { return uvec3(growth[i].across[0], growth[i].across[1], growth[i].across[2]); }
@@ -81,7 +81,7 @@ vec4 ring_line(uint i, bool right, ivec2 at) {
             if (other == i + 1u) continue;
             if (other == 0u) {
                 if (inside && any(equal(across, uvec3(LR_GROWTH_BORDER)))) {
-                    return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
+                    return vec4(vec3(LR_GROWTH_LINE_COLOR) / 255.0, push.line_opacity);
                 }
                 continue;
             }
@@ -93,26 +93,26 @@ vec4 ring_line(uint i, bool right, ivec2 at) {
                 if (!is_among(across.x, there) && !is_among(across.y, there) && !is_among(across.z, there)) continue;
             }
             bool stays = ((inside ? beyond : step) & ~LR_GROWTH_RIGHT) < push.invaded;
-            if (stays) return vec4(vec3(LR_GROWTH_LINE_COLOUR) / 255.0, push.line_opacity);
-            return vec4(vec3(LR_GROWTH_FRONT_COLOUR) / 255.0, max(push.line_opacity, 0.75));
+            if (stays) return vec4(vec3(LR_GROWTH_LINE_COLOR) / 255.0, push.line_opacity);
+            return vec4(vec3(LR_GROWTH_FRONT_COLOR) / 255.0, max(push.line_opacity, 0.75));
         }
     }
     return vec4(0.0);
 }
 
-vec3 painted(vec3 colour, uint triangle, bool right, ivec2 at) {
-    if (kPaint == LR_PAINT_NONE || triangle == 0u) return colour;
+vec3 painted(vec3 color, uint triangle, bool right, ivec2 at) {
+    if (kPaint == LR_PAINT_NONE || triangle == 0u) return color;
     uint i = (triangle & ~LR_FRONT_FLAG) - 1u;
-    if (i >= push.triangles) return colour;
+    if (i >= push.triangles) return color;
     vec4 over = (kPaint & LR_PAINT_TRIANGLES) != 0u ? unpackUnorm4x8(paint[i]) : vec4(0.0);
-    vec3 lit = colour;
+    vec3 lit = color;
     if (over.a != 0.0) {
-        lit = recoloured(colour, over);
+        lit = recolored(color, over);
     } else if ((kPaint & LR_PAINT_GROWTH) != 0u) {
-        vec3 grown = growth_colour(growth[i].step);
-        // Approximates recoloured() by treating sRGB as a pure power, a few percent off: this runs every frame.
-        lit = (kPaint & LR_PAINT_FLAT) != 0u ? recoloured(colour, vec4(grown, 1.0))
-                                             : min(grown * colour / vec3(0.808, 0.797, 0.776), vec3(1.0));
+        vec3 grown = growth_color(growth[i].step);
+        // Approximates recolored() by treating sRGB as a pure power, a few percent off: this runs every frame.
+        lit = (kPaint & LR_PAINT_FLAT) != 0u ? recolored(color, vec4(grown, 1.0))
+                                             : min(grown * color / vec3(0.808, 0.797, 0.776), vec3(1.0));
     }
     if ((kPaint & LR_PAINT_RING) == 0u) return lit;
     vec4 line = ring_line(i, right, at);
@@ -135,31 +135,31 @@ void main() {
     if (at.x >= size.x || at.y >= size.y) return;
     vec3 behind = background((vec2(at) + 0.5) / vec2(size));
     int n = int(kSamples);
-    vec3 colour;
+    vec3 color;
     if (kMode == LR_COMPOSE_DIFFERENCE) {
         bool same = true;
         vec3 pale = vec3(0.0);
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < n; ++i) {
                 ivec2 s = at * n + ivec2(i, j);
-                same = same && imageLoad(left_colour, s) == imageLoad(right_colour, s) &&
+                same = same && imageLoad(left_color, s) == imageLoad(right_color, s) &&
                        imageLoad(left_triangles, s).x == imageLoad(right_triangles, s).x;
-                pale += sample_at(imageLoad(left_colour, s), false, s, behind);
+                pale += sample_at(imageLoad(left_color, s), false, s, behind);
             }
         }
-        float grey = dot(pale / float(n * n), vec3(0.299, 0.587, 0.114));
-        colour = same ? mix(vec3(grey), vec3(1.0), 0.55) : vec3(0.85, 0.06, 0.06);
+        float gray = dot(pale / float(n * n), vec3(0.299, 0.587, 0.114));
+        color = same ? mix(vec3(gray), vec3(1.0), 0.55) : vec3(0.85, 0.06, 0.06);
     } else {
         bool right = kMode == LR_COMPOSE_SPLIT && at.x >= int(push.divider);
         if (n == 1) {
-            colour = sample_at(right ? imageLoad(right_colour, at) : imageLoad(left_colour, at), right, at, behind);
+            color = sample_at(right ? imageLoad(right_color, at) : imageLoad(left_color, at), right, at, behind);
         } else {
             vec3 sum = vec3(0.0);
             int empty = 0;
             for (int j = 0; j < n; ++j) {
                 for (int i = 0; i < n; ++i) {
                     ivec2 s = at * n + ivec2(i, j);
-                    vec4 drawn = right ? imageLoad(right_colour, s) : imageLoad(left_colour, s);
+                    vec4 drawn = right ? imageLoad(right_color, s) : imageLoad(left_color, s);
                     if (drawn.a == 0.0) {
                         ++empty;
                         continue;
@@ -169,8 +169,8 @@ void main() {
                 }
             }
             behind = floor(behind * 255.0 + 0.5) / 255.0;
-            colour = empty == n * n ? behind : srgb((sum + float(empty) * linear(behind)) / float(n * n));
+            color = empty == n * n ? behind : srgb((sum + float(empty) * linear(behind)) / float(n * n));
         }
     }
-    imageStore(composed, at, vec4(colour, 1.0));
+    imageStore(composed, at, vec4(color, 1.0));
 }

@@ -30,14 +30,14 @@ struct GrowthTriangle {
 #endif
 };
 // Colors of growth: red, green, blue, 0 to 255.
-#define LR_GROWTH_INVADED_COLOUR 222, 112, 48
-#define LR_GROWTH_NEWEST_COLOUR 255, 214, 60
-#define LR_GROWTH_RIGHT_COLOUR 247, 234, 200
-#define LR_GROWTH_NOT_YET_COLOUR 168, 172, 180
-#define LR_GROWTH_LINE_COLOUR 24, 24, 28    // ring edges that are final
-#define LR_GROWTH_FRONT_COLOUR 24, 96, 220  // ring edges that may still be crossed
-#define LR_GROWTH_RIGHT 0x80000000u         // flag in `step`: the triangle is never invaded
-#define LR_GROWTH_BORDER 0xffffffffu        // in `across`: no triangle
+#define LR_GROWTH_INVADED_COLOR 222, 112, 48
+#define LR_GROWTH_NEWEST_COLOR 255, 214, 60
+#define LR_GROWTH_RIGHT_COLOR 247, 234, 200
+#define LR_GROWTH_NOT_YET_COLOR 168, 172, 180
+#define LR_GROWTH_LINE_COLOR 24, 24, 28    // ring edges that are final
+#define LR_GROWTH_FRONT_COLOR 24, 96, 220  // ring edges that may still be crossed
+#define LR_GROWTH_RIGHT 0x80000000u        // flag in `step`: the triangle is never invaded
+#define LR_GROWTH_BORDER 0xffffffffu       // in `across`: no triangle
 
 struct ComposeConstants {
     uint divider;    // first column of the right picture

@@ -33,7 +33,7 @@ class Usage(CliTest):
         cases = [[], ["frobnicate"], ["--frobnicate"], ["info"], ["info", mesh, "--frobnicate"], ["info", mesh, mesh],
                  ["stats"], ["stats", mesh, "--ring", "square"], ["encode", mesh], ["encode", "-o", out],
                  ["encode", mesh, "-o", out, "--format", "zip"], ["encode", mesh, "-o", out, "--seeds", "many"],
-                 ["encode", mesh, "-o", out, "--weld=colour"], ["decode", mesh], ["verify"], ["bench"], ["generate"],
+                 ["encode", mesh, "-o", out, "--weld=color"], ["decode", mesh], ["verify"], ["bench"], ["generate"],
                  ["generate", "sphere"], ["generate", "teapot", "-o", self.path("a.ply")],
                  ["generate", "sphere", "-o", self.path("a.ply"), "--triangles", "some"],
                  ["generate", "sphere", "-o", self.path("a.ply"), "--triangles", "-5"],

@@ -235,6 +235,9 @@ class Usage(CliTest):
     def test_unknown_commands(self):
         for name, nearest in (("stat", "stats"), ("inof", "info"), ("Stats", "stats"), ("encdoe", "encode"), ("decodee", "decode")):
             self.wrong(name, "x.ply", mentions=[f"'{name}'", f"'{nearest}'"])
+        self.wrong("info", "x.ply", "--jsno", mentions=["info has no option --jsno; nearest is '--json'"])
+        self.wrong("info", "x.ply", "--wled=position", mentions=["--wled; nearest is '--weld'"])
+        self.wrong("info", "x.ply", "--velocity", mentions=["info has no option --velocity ("])
         self.wrong("frobnicate", mentions=["unknown command 'frobnicate'"])
         self.wrong("x" * 1000, mentions=["unknown command"])
         self.wrong("a\nb", mentions=["unknown command 'a b'"])

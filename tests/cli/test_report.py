@@ -91,9 +91,9 @@ def read_png(data):
         head = struct.unpack(">IIBBBBB", chunk) if kind == b"IHDR" else head
         body += chunk if kind == b"IDAT" else b""
         at += 12 + size
-    width, height, depth, colour = head[:4]
-    assert depth == 8 and colour in (2, 6), head
-    step = 3 if colour == 2 else 4
+    width, height, depth, color = head[:4]
+    assert depth == 8 and color in (2, 6), head
+    step = 3 if color == 2 else 4
     raw, before, rows = zlib.decompress(body), bytes(width * step), []
     for y in range(height):
         line = raw[y * (width * step + 1):(y + 1) * (width * step + 1)]
@@ -329,7 +329,7 @@ class Report(CliTest):
         self.fails("report", good, "--no-gpu", "-o", self.folder)
         self.fails("report", good, codes=(WRONG_USAGE,))
         self.fails("report", "-o", out, codes=(WRONG_USAGE,))
-        self.fails("report", good, "-o", out, "--weld=colour", codes=(WRONG_USAGE,))
+        self.fails("report", good, "-o", out, "--weld=color", codes=(WRONG_USAGE,))
         if self.has_command("render"):
             self.fails("report", good, "-o", out, "--size", "0x0", codes=(WRONG_USAGE,))
 

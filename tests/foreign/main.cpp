@@ -11,7 +11,7 @@
 #include <string>
 
 #include "lacedring/lacedring.hpp"
-#include "spirv/colour_frag.h"
+#include "spirv/color_frag.h"
 #include "spirv/expand_lean_comp.h"
 #include "spirv/expand_packed_comp.h"
 #include "spirv/indexed_vert.h"
@@ -150,8 +150,8 @@ bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
     constexpr auto vertex = storage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
     constexpr auto index = storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
     const Stage vertices{VK_SHADER_STAGE_VERTEX_BIT, indexed_vert};
-    const Stage colour{VK_SHADER_STAGE_FRAGMENT_BIT, colour_frag};
-    const VkPipeline indexed = gpu.graphics(std::array{vertices, colour}, Input::indexed);
+    const Stage color{VK_SHADER_STAGE_FRAGMENT_BIT, color_frag};
+    const VkPipeline indexed = gpu.graphics(std::array{vertices, color}, Input::indexed);
 
     // Plain vkCmdDrawIndexed.
     const auto draw_indexed = [&](const Buffer& vertex_buffer, const Buffer& indices, std::uint32_t triangles) {
@@ -198,7 +198,7 @@ bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
             good &= compare(name + " " + way, plain, gpu.draw(push, set, prepare, record), nearly);
         };
         const Stage pull{VK_SHADER_STAGE_VERTEX_BIT, lean ? Spirv(pull_lean_vert) : Spirv(pull_packed_vert)};
-        const VkPipeline pulling = gpu.graphics(std::array{pull, colour}, Input::triangles);
+        const VkPipeline pulling = gpu.graphics(std::array{pull, color}, Input::triangles);
         draw("vertex", nullptr, draw_pulled(pulling, 3 * stream.triangles));
 
         const auto expand_with = [&](VkPipeline pipeline, std::uint32_t invocations) {
@@ -221,13 +221,13 @@ bool draw_all(Gpu& gpu, const lacedring::Mesh& mesh, bool broken) {
         if (lean) {
             const Stage points{VK_SHADER_STAGE_VERTEX_BIT, points_vert};
             const Stage make{VK_SHADER_STAGE_GEOMETRY_BIT, points_lean_geom};
-            const VkPipeline geometry = gpu.graphics(std::array{points, make, colour}, Input::points);
+            const VkPipeline geometry = gpu.graphics(std::array{points, make, color}, Input::points);
             draw("geometry", nullptr, draw_pulled(geometry, stream.triangles), true);
         }
         if (gpu.has_mesh_shaders()) {
             const Stage make{VK_SHADER_STAGE_MESH_BIT_EXT,
                              lean ? Spirv(triangles_lean_mesh) : Spirv(triangles_packed_mesh)};
-            const VkPipeline pipeline = gpu.graphics(std::array{make, colour}, Input::mesh);
+            const VkPipeline pipeline = gpu.graphics(std::array{make, color}, Input::mesh);
             const auto tasks = [&](VkCommandBuffer commands) {
                 vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
                 gpu.draw_mesh_tasks(commands, (stream.triangles + 63) / 64, 1, 1);

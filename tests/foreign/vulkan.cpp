@@ -7,7 +7,7 @@
 
 namespace {
 
-constexpr VkFormat colour_format = VK_FORMAT_R8G8B8A8_UNORM, depth_format = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_UNORM, depth_format = VK_FORMAT_D32_SFLOAT;
 
 void check(VkResult result, const char* what) {
     if (result != VK_SUCCESS) throw std::runtime_error(std::string(what) + ": VkResult " + std::to_string(result));
@@ -135,8 +135,8 @@ Gpu::Gpu(std::uint32_t& messages) {
     check(vkCreatePipelineLayout(device_, &layout, nullptr, &layout_), "vkCreatePipelineLayout");
     undo_.push_back([this] { vkDestroyPipelineLayout(device_, layout_, nullptr); });
 
-    colour_view_ = image(colour_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                         VK_IMAGE_ASPECT_COLOR_BIT, colour_);
+    color_view_ = image(color_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                        VK_IMAGE_ASPECT_COLOR_BIT, color_);
     depth_view_ = image(depth_format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, depth_);
     pixels_ = buffer(std::size_t{side} * side * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
@@ -311,7 +311,7 @@ VkPipeline Gpu::graphics(std::span<const Stage> stages, Input input) {
                                                    .pDynamicStates = compare};
     const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                   .colorAttachmentCount = 1,
-                                                  .pColorAttachmentFormats = &colour_format,
+                                                  .pColorAttachmentFormats = &color_format,
                                                   .depthAttachmentFormat = depth_format};
     const VkGraphicsPipelineCreateInfo create{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                               .pNext = &rendering,
@@ -360,13 +360,13 @@ Picture Gpu::draw(const Push& push, VkDescriptorSet set, const Record& prepare, 
     vkCmdPushConstants(commands_, layout_, VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
     if (prepare) prepare(commands_);
 
-    barrier(colour_, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL);
+    barrier(color_, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL);
     barrier(depth_, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL);
-    const VkRenderingAttachmentInfo colour{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                           .imageView = colour_view_,
-                                           .imageLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
-                                           .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                           .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                          .imageView = color_view_,
+                                          .imageLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
+                                          .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                          .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     const VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                           .imageView = depth_view_,
                                           .imageLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
@@ -378,7 +378,7 @@ Picture Gpu::draw(const Push& push, VkDescriptorSet set, const Record& prepare, 
                                     .renderArea = area,
                                     .layerCount = 1,
                                     .colorAttachmentCount = 1,
-                                    .pColorAttachments = &colour,
+                                    .pColorAttachments = &color,
                                     .pDepthAttachment = &depth};
     vkCmdBeginRendering(commands_, &rendering);
     vkCmdSetDepthCompareOp(commands_, VK_COMPARE_OP_LESS);
@@ -390,11 +390,11 @@ Picture Gpu::draw(const Push& push, VkDescriptorSet set, const Record& prepare, 
     draw(commands_);
     vkCmdEndRendering(commands_);
 
-    barrier(colour_, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
+    barrier(color_, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                  .imageExtent = {side, side, 1}};
-    vkCmdCopyImageToBuffer(commands_, colour_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels_.handle, 1, &copy);
+    vkCmdCopyImageToBuffer(commands_, color_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels_.handle, 1, &copy);
     const VkMemoryBarrier2 to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                    .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
                                    .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,

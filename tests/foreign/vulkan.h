@@ -65,8 +65,8 @@ class Gpu {
     VkDescriptorPool descriptor_pool_ = VK_NULL_HANDLE;
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkImage colour_ = VK_NULL_HANDLE, depth_ = VK_NULL_HANDLE;
-    VkImageView colour_view_ = VK_NULL_HANDLE, depth_view_ = VK_NULL_HANDLE;
+    VkImage color_ = VK_NULL_HANDLE, depth_ = VK_NULL_HANDLE;
+    VkImageView color_view_ = VK_NULL_HANDLE, depth_view_ = VK_NULL_HANDLE;
     Buffer pixels_;
     std::vector<std::function<void()>> undo_;  // destroys everything created; run in reverse
 };

@@ -53,22 +53,22 @@ struct OperatorTest : AdjacencyTest {
         }
         for (std::uint32_t first = 0; first < view.vertices; first += kBatch) {
             const std::uint32_t push[2] = {first, std::min(view.vertices, first + kBatch)};
-            std::vector<std::uint32_t> begins{0}, neighbours, expected;
+            std::vector<std::uint32_t> begins{0}, neighbors, expected;
             for (std::uint32_t v = first; v < push[1]; ++v) {
                 CornerId star = kNullCorner;
                 ops.star(VertexId{v}, [&](CornerId c) { star = star.is_null() ? c : star; });
-                ops.neighbors(VertexId{v}, [&](VertexId u) { neighbours.push_back(u.value); });
-                begins.push_back(static_cast<std::uint32_t>(neighbours.size()));
+                ops.neighbors(VertexId{v}, [&](VertexId u) { neighbors.push_back(u.value); });
+                begins.push_back(static_cast<std::uint32_t>(neighbors.size()));
                 const std::uint32_t valence = ops.valence(VertexId{v});
                 expected.insert(expected.end(), {ops.corner(VertexId{v}).value, star.value, valence, valence});
             }
             const gpu::Buffer out = buffer(4 * expected.size()), starts = buffer(begins),
-                              found = buffer(4 * neighbours.size());
+                              found = buffer(4 * neighbors.size());
             run(at_vertices, {&tables, &out, &starts, &found}, push, sizeof(push), push[1] - first);
             const auto got = read<std::uint32_t>(out, expected.size());
-            const auto got_neighbours = read<std::uint32_t>(found, neighbours.size());
+            const auto got_neighbors = read<std::uint32_t>(found, neighbors.size());
             for (std::size_t i = 0; i < got.size(); ++i) wrong += got[i] != expected[i] ? 1 : 0;
-            for (std::size_t i = 0; i < neighbours.size(); ++i) wrong += got_neighbours[i] != neighbours[i] ? 1 : 0;
+            for (std::size_t i = 0; i < neighbors.size(); ++i) wrong += got_neighbors[i] != neighbors[i] ? 1 : 0;
         }
         measured.vertices += view.vertices;
         ++measured.meshes;
@@ -130,7 +130,7 @@ namespace {
 /// with 53, and cancellation by 2^n loses n of them; from n = 28 the device's error may reach 1e-5. In all meshes
 /// tested, no n is between 20 and 54: the excluded sums are zero, and their directions are rounding errors on the CPU,
 /// too.
-constexpr double kMostCancelled = 1 << 28;
+constexpr double kMostCanceled = 1 << 28;
 
 struct NormalTest : AdjacencyTest {
     NormalTest() {
@@ -141,7 +141,7 @@ struct NormalTest : AdjacencyTest {
 
     /// For each vertex of the corner table, the cancellation in the sum of its triangles' cross products: the size of
     /// the terms divided by the size of the sum. Infinite if the sum is zero.
-    static std::vector<double> cancelled(const Tables& tables) {
+    static std::vector<double> canceled(const Tables& tables) {
         const CornerTable& table = tables.table;
         const Positions positions{std::span<const float>(tables.positions)};
         std::vector<Point3> sums(table.vertex_count);
@@ -172,7 +172,7 @@ struct NormalTest : AdjacencyTest {
         const auto got = read<float>(*made, std::size_t{3} * adjacency->vertices);
         const std::vector<float> expected =
             vertex_normals(tables.table, Positions{std::span<const float>(tables.positions)});
-        const std::vector<double> lost = cancelled(tables);
+        const std::vector<double> lost = canceled(tables);
         for (std::uint32_t v = 0; v < adjacency->vertices; ++v) {
             const std::size_t u = tables.map.vertex[v].value;
             Point3 a{}, b{};
@@ -183,13 +183,13 @@ struct NormalTest : AdjacencyTest {
             if (std::abs(length(a) - 1) > 1e-6) REQUIRE(length(a) == doctest::Approx(1));
             ++measured.vertices;
             const double error = length(minus(a, b));
-            if (!(lost[u] <= kMostCancelled)) {
+            if (!(lost[u] <= kMostCanceled)) {
                 ++measured.excluded;
                 measured.rounded += std::isfinite(lost[u]) ? 1 : 0;
                 continue;
             }
             measured.worst = std::max(measured.worst, error);
-            if (error > 1e-5) CHECK_MESSAGE(error <= 1e-5, "vertex ", v, " cancelled ", lost[u]);
+            if (error > 1e-5) CHECK_MESSAGE(error <= 1e-5, "vertex ", v, " canceled ", lost[u]);
         }
         ++measured.meshes;
     }
@@ -208,5 +208,5 @@ TEST_CASE_FIXTURE(NormalTest, "normals that the device computes from tables and 
     });
     CHECK(measured.excluded * 100 < measured.vertices);
     MESSAGE(measured.meshes, " meshes, ", measured.vertices, " vertices; ", measured.excluded,
-            " cancelled and not compared, of which ", measured.rounded, " not exactly zero; worst ", measured.worst);
+            " canceled and not compared, of which ", measured.rounded, " not exactly zero; worst ", measured.worst);
 }

@@ -17,7 +17,7 @@ gpu::Camera camera_of(const gpu::Model& model, const gpu::CameraOptions& options
 /// A point of the mesh in normalized device coordinates.
 std::array<double, 3> project(const gpu::Model& model, const gpu::Camera& camera, std::array<double, 3> p) {
     std::array<double, 4> v{0, 0, 0, 1}, view{}, clip{};
-    for (std::size_t i = 0; i < 3; ++i) v[i] = (p[i] - model.centre[i]) / model.radius;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = (p[i] - model.center[i]) / model.radius;
     for (std::size_t r = 0; r < 4; ++r) {
         for (std::size_t c = 0; c < 4; ++c) view[r] += static_cast<double>(camera.view_from_world[4 * c + r]) * v[c];
     }
@@ -62,7 +62,7 @@ TEST_CASE("azimuth moves the eye to the right, elevation up, zoom nearer") {
                 eye[i] -=
                     static_cast<double>(c.view_from_world[4 * i + r]) * static_cast<double>(c.view_from_world[12 + r]);
             }
-            eye[i] = eye[i] * model.radius + model.centre[i];
+            eye[i] = eye[i] * model.radius + model.center[i];
         }
         return eye;
     };

@@ -21,7 +21,7 @@ constexpr std::uint32_t kSamples = 3;
 // samples of silhouettes and lines; one sample of nine is up to 28/255 of a pixel. Lavapipe 22.3 stays within the
 // tolerance with SSE4.1, AVX and AVX-512. Wrong colors, shapes and classes differ far more, as the end of the test
 // shows.
-constexpr std::uint32_t kSameColour = 4;
+constexpr std::uint32_t kSameColor = 4;
 constexpr double kOtherPixels = 0.005;
 
 double share_of_others(const gpu::Picture& a, const gpu::Picture& b) {
@@ -30,7 +30,7 @@ double share_of_others(const gpu::Picture& a, const gpu::Picture& b) {
     for (std::size_t i = 0; i < a.pixels(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
             const int d = int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]};
-            if (static_cast<std::uint32_t>(std::abs(d)) > kSameColour) {
+            if (static_cast<std::uint32_t>(std::abs(d)) > kSameColor) {
                 ++others;
                 break;
             }

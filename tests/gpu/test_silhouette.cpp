@@ -129,7 +129,7 @@ gpu::Picture outlined(gpu::Context& context, const gpu::Model& model, const gpu:
     REQUIRE((drawable && adjacency && silhouettes));
     drawable->mesh.line_indices = 0;
     renderer->painter().set_frame(model, camera, renderer->target());
-    silhouettes->set_frame(camera, renderer->target(), {.crease = crease, .colour = {1, 0, 0, 1}, .width = 1});
+    silhouettes->set_frame(camera, renderer->target(), {.crease = crease, .color = {1, 0, 0, 1}, .width = 1});
     const auto commands = renderer->commands().begin();
     REQUIRE(commands);
     renderer->painter().record(*commands, drawable->mesh, drawable->draw, renderer->target(),
@@ -217,11 +217,11 @@ TEST_CASE_FIXTURE(EdgeTest, "an outline is drawn without a surface") {
     auto silhouettes = gpu::Silhouettes::create(*context);
     const auto target = gpu::Target::create(*context, {kSide, kSide});
     REQUIRE((camera && adjacency && silhouettes && target));
-    silhouettes->set_frame(*camera, *target, {.crease = 180, .colour = {1, 0, 0, 1}, .width = 1});
+    silhouettes->set_frame(*camera, *target, {.crease = 180, .color = {1, 0, 0, 1}, .width = 1});
     const auto recording = commands->begin();
     REQUIRE(recording);
     target->prepare(*recording);
-    target->begin(*recording, {.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true});
+    target->begin(*recording, {.color = true, .triangles = true, .clear_color = true, .clear_depth = true});
     gpu::Target::end(*recording);
     silhouettes->record(*recording, *adjacency, *target);
     target->record_read(*recording);

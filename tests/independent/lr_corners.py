@@ -103,7 +103,7 @@ def check_corners(tables):
             raise BadFile(f"corner {c} does not face corner {o}")
     for a, b in borders:
         if (b, a) in borders and uses[min(a, b), max(a, b)] == 2:
-            raise BadFile(f"two neighbours at the edge {a}, {b} do not know of each other")
+            raise BadFile(f"two neighbors at the edge {a}, {b} do not know of each other")
     for i, c in enumerate(tables.isolated):
         if vertex.get(c) != tables.ring + i:
             raise BadFile(f"corner {c} is not one of isolated vertex {tables.ring + i}")

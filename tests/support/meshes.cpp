@@ -177,7 +177,7 @@ std::vector<std::pair<std::string, Shape>> surface_shapes() {
         {"projective plane, subdivided", subdivide(subdivide(projective_plane()))},
         {"sphere with its poles pinched together", pinch(bipyramid(9), 1, 0)},
         {"octahedron with two opposite vertices joined", pinch(octahedron(), 4, 2)},
-        {"octahedron with two neighbours joined", pinch(octahedron(), 3, 2)},
+        {"octahedron with two neighbors joined", pinch(octahedron(), 3, 2)},
         {"torus pinched twice", pinch(pinch(grid(8, 8, true, true, false), 0, 36), 5, 51)},
         {"two tetrahedra at a vertex", pinch(beside(tetrahedron(), tetrahedron()), 4, 0)},
         {"two tetrahedra on an edge", pinch(pinch(beside(tetrahedron(), tetrahedron()), 4, 0), 5, 1)},

@@ -14,12 +14,12 @@ def read(path):
         length, kind = struct.unpack(">I4s", data[at:at + 8])
         body = data[at + 8:at + 8 + length]
         if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert depth == 8 and colour in (2, 6), (depth, colour)
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            assert depth == 8 and color in (2, 6), (depth, color)
         elif kind == b"IDAT":
             packed += body
         at += 12 + length
-    step = 3 if colour == 2 else 4
+    step = 3 if color == 2 else 4
     raw = zlib.decompress(packed)
     stride = width * step
     rows, previous = [], bytearray(stride)
@@ -50,11 +50,11 @@ def read_screen(folder):
     with open(f"{folder}/Xvfb_screen0", "rb") as file:
         data = file.read()
     header = struct.unpack(">20I", data[:80])
-    size, width, height, big_endian, bits, stride, colours = (header[i] for i in (0, 4, 5, 7, 11, 12, 19))
+    size, width, height, big_endian, bits, stride, colors = (header[i] for i in (0, 4, 5, 7, 11, 12, 19))
     assert bits == 32 and big_endian == 0, header
     rows = []
     for y in range(height):
-        at = size + 12 * colours + y * stride
+        at = size + 12 * colors + y * stride
         row = bytearray(3 * width)
         for channel in range(3):
             row[channel::3] = data[at + 2 - channel:at + 4 * width:4]

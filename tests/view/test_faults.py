@@ -122,7 +122,7 @@ class Faults(driver.Scripted):
             frames 2
             print
             set passes 3
-            wait optimised
+            wait optimized
             print""", slow)
         self.assertEqual(said, "")
         self.assertLess(seconds, 2 * SOON)
@@ -177,7 +177,7 @@ class Faults(driver.Scripted):
 
     def test_a_window_larger_than_the_device_draws(self):
         torus = mesh("torus", 500)
-        script = "wait optimised\nresize 700 500\nframes 3\nprint\nresize 500 400\nframes 3\nprint"
+        script = "wait optimized\nresize 700 500\nframes 3\nprint\nresize 500 400\nframes 3\nprint"
         states, said, _ = self.faulty(script, torus, "--validation", FAULT_IMAGE_LIMIT="600")
         self.assertEqual(said, "")
         self.assertEqual([state["window"] for state in states], [[600, 500], [500, 400]])
@@ -193,7 +193,7 @@ class Faults(driver.Scripted):
     def test_a_screen_larger_than_the_device_draws(self):
         server, display = driver.start_display("20000x300")
         try:
-            states, said, _ = self.faulty("wait optimised\nresize 20000 100\nframes 3\nprint\nresize 640 200\nframes 3\nprint",
+            states, said, _ = self.faulty("wait optimized\nresize 20000 100\nframes 3\nprint\nresize 640 200\nframes 3\nprint",
                                           mesh("torus", 500), "--validation", display=display, faults_on=False)
         finally:
             driver.stop(server)

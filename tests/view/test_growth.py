@@ -11,7 +11,7 @@ import png
 from driver import mesh, run
 
 # Lighting keeps the ratios of red, green and blue of these colors (shaders/viewer/compose_shared.h).
-ORANGE, YELLOW, CREAM, GREY, BLUE, BLACK = (222, 112, 48), (255, 214, 60), (247, 234, 200), (168, 172, 180), \
+ORANGE, YELLOW, CREAM, GRAY, BLUE, BLACK = (222, 112, 48), (255, 214, 60), (247, 234, 200), (168, 172, 180), \
     (24, 96, 220), (24, 24, 28)
 
 
@@ -21,8 +21,8 @@ def nearest(pixel):
     if max(pixel) < 60:
         return None
     shares = [channel / max(pixel) for channel in pixel]
-    return min((ORANGE, YELLOW, CREAM, GREY, BLUE),
-               key=lambda colour: sum((s - c / max(colour)) ** 2 for s, c in zip(shares, colour)))
+    return min((ORANGE, YELLOW, CREAM, GRAY, BLUE),
+               key=lambda color: sum((s - c / max(color)) ** 2 for s, c in zip(shares, color)))
 
 
 def counts(name, background):
@@ -34,8 +34,8 @@ def counts(name, background):
             pixel = tuple(row[i:i + 3])
             if pixel == tuple(behind[i:i + 3]):
                 continue
-            colour = nearest(pixel)
-            out[colour] = out.get(colour, 0) + 1
+            color = nearest(pixel)
+            out[color] = out.get(color, 0) + 1
     return out
 
 
@@ -47,24 +47,24 @@ class Growth(driver.Scripted):
         return png.read(name)
 
     def shots(self, model, stages, *lines):
-        script = ["set panels off", "wait optimised", "set passes 0", "wait settled", *lines, "set speed 30", "set paint growth"]
+        script = ["set panels off", "wait optimized", "set passes 0", "wait settled", *lines, "set speed 30", "set paint growth"]
         for stage in stages:
             script += [f"set growth {stage}", f"screenshot {driver.folder}/growth-{stage}.png", "print"]
         return self.view("\n".join(script), model)
 
-    def test_colours_follow_the_expander(self):
+    def test_colors_follow_the_expander(self):
         behind = self.background()
         states = self.shots(mesh("torus", 500), (0, 1, 60, 1000000))
         _, end = states[0]["growth"]
         self.assertEqual(end, 248)  # a ring of 250 vertices has 248 steps
         seen = [counts(f"{driver.folder}/growth-{stage}.png", behind) for stage in (0, 1, 60, 1000000)]
-        grey = [each.get(GREY, 0) for each in seen]
+        gray = [each.get(GRAY, 0) for each in seen]
         orange = [each.get(ORANGE, 0) for each in seen]
         # Nothing is settled at first, and everything at last.
-        self.assertGreater(grey[0], 10000)
+        self.assertGreater(gray[0], 10000)
         self.assertEqual([seen[0].get(c, 0) for c in (ORANGE, YELLOW, CREAM, BLUE)], [0, 0, 0, 0])
-        self.assertGreater(grey[0], grey[2])
-        self.assertGreater(grey[2], grey[3])
+        self.assertGreater(gray[0], gray[2])
+        self.assertGreater(gray[2], gray[3])
         self.assertLess(orange[2], orange[3])
         self.assertGreater(seen[2].get(BLUE, 0), 30)
         self.assertLess(seen[3].get(BLUE, 0), 30)  # no front at the end
@@ -109,7 +109,7 @@ class Growth(driver.Scripted):
         self.assertNotEqual(states[0]["t0"], states[1]["t0"])
 
     def test_growing_restarts_with_another_seed_and_stays_where_it_stands_still(self):
-        states = self.view("""wait optimised
+        states = self.view("""wait optimized
             set passes 0
             wait settled
             set speed 60
@@ -117,7 +117,7 @@ class Growth(driver.Scripted):
             frames 20
             print
             set seeds 8
-            wait optimised
+            wait optimized
             set speed 100000
             wait settled
             print
@@ -162,7 +162,7 @@ class Growth(driver.Scripted):
     def test_turntable_pictures(self):
         blob = mesh("blob", 3000)
         folder = os.path.join(driver.folder, "turn")
-        states = self.view(f"""wait optimised
+        states = self.view(f"""wait optimized
             set passes 0
             wait settled
             print
@@ -187,7 +187,7 @@ class Growth(driver.Scripted):
         self.assertLessEqual(pixels, 480 * 320 // 20)
 
     def test_turntable_that_is_stopped(self):
-        states = self.view("""wait optimised
+        states = self.view("""wait optimized
             set passes 0
             wait settled
             print

@@ -37,7 +37,7 @@ class Reload(driver.Scripted):
         return f"copy {SOURCES}/{name} {self.shaders}/{name}\nwait shaders"
 
     def script(self, *lines, **options):
-        states = self.view("\n".join(("set panels off", "wait optimised", "wait shaders") + lines), mesh("blob", 3000),
+        states = self.view("\n".join(("set panels off", "wait optimized", "wait shaders") + lines), mesh("blob", 3000),
                            "--shaders", self.shaders, **options)
         self.assertTrue(all(state["shaders"]["folder"] == self.shaders for state in states))
         return [state["shaders"] for state in states]
@@ -171,7 +171,7 @@ class Reload(driver.Scripted):
     def test_a_folder_that_goes_and_comes_back(self):
         script = os.path.join(self.folder, "script")
         with open(script, "w") as file:
-            file.write("wait optimised\n" + "wait shaders\nprint\n" * 300 + "close\n")
+            file.write("wait optimized\n" + "wait shaders\nprint\n" * 300 + "close\n")
         viewer = subprocess.Popen(
             [driver.program, "view", mesh("torus", 500), "--shaders", self.shaders, "--script", script],
             stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=driver.folder, env=dict(os.environ, DISPLAY=driver.display))

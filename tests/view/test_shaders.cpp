@@ -118,16 +118,16 @@ TEST_CASE("edits that change an interface are refused, others are accepted") {
     };
     constexpr Case kCases[] = {
         {"draw/surface.frag", "vec3(0.62, 0.60, 0.565)", "vec3(1, 0, 0)", "draw/surface.frag", ""},
-        {"draw/surface.frag", "vec4(srgb(colour.x), srgb(colour.y), srgb(colour.z), 1.0)", "vec4(1)",
-         "draw/surface.frag", ""},
-        {"draw/surface.frag", "in_ring_colour;", "in_other;\nvec3 in_ring_colour = vec3(1);", "draw/surface.frag", ""},
+        {"draw/surface.frag", "vec4(srgb(color.x), srgb(color.y), srgb(color.z), 1.0)", "vec4(1)", "draw/surface.frag",
+         ""},
+        {"draw/surface.frag", "in_ring_color;", "in_other;\nvec3 in_ring_color = vec3(1);", "draw/surface.frag", ""},
         {"shared.h", "#define LR_LINE_LIFT 0.0012", "#define LR_LINE_LIFT 0.005", "draw/line.vert", ""},
-        {"shared.h", "vec4 line_colour;", "vec4 colour_of_lines;", "draw/surface.vert", ""},
+        {"shared.h", "vec4 line_color;", "vec4 color_of_lines;", "draw/surface.vert", ""},
         {"draw/surface.frag", "binding = 3", "binding = 4", "draw/surface.frag", "binding 4 is new"},
         {"draw/surface.frag", "r32ui) uniform readonly uimage2D", "r32i) uniform readonly iimage2D",
          "draw/surface.frag", "binding 3 is declared otherwise"},
         {"draw/surface.frag", "(location = 2)", "(location = 5)", "draw/surface.frag", "input 5 is new"},
-        {"draw/surface.frag", "out vec4 out_colour", "out vec3 out_rgb;\nvec4 out_colour", "draw/surface.frag",
+        {"draw/surface.frag", "out vec4 out_color", "out vec3 out_rgb;\nvec4 out_color", "draw/surface.frag",
          "output 0 is declared otherwise"},
         {"draw/surface.frag", "layout(location = 1) out uint", "uint", "draw/surface.frag", "output 1 is missing"},
         {"shared.h", "mat4 view_from_world;", "vec4 more;\n    mat4 view_from_world;", "draw/surface.vert",
@@ -141,7 +141,7 @@ TEST_CASE("edits that change an interface are refused, others are accepted") {
         {"draw/surface.geom", "max_vertices = 3 * LR_GEOMETRY_SLOTS", "max_vertices = 9", "draw/surface.geom",
          "what is emitted is declared otherwise"},
         {"draw/surface.frag", "out_triangle = (",
-         "out_colour.x = float(double(out_colour.x) * 2.0lf);\n    out_triangle = (", "draw/surface.frag",
+         "out_color.x = float(double(out_color.x) * 2.0lf);\n    out_triangle = (", "draw/surface.frag",
          "capability 10 was not asked"},
     };
     Sources sources;

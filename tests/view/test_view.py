@@ -64,9 +64,9 @@ class View(driver.Scripted):
         """Unknown words and numbers out of range are errors."""
         self.wrong_line("set path mesh", "mesh shaders", before="frames 1\n")  # the device has no mesh shaders
         for line in ("set warts yes", "set samples 4", "set samples 1.5", "set divider 1.1", "set k -5", "set k nan",
-                     "set passes 2x", "set colour red", "set view", "set view smooth flat", "wait dinner", "frames", "frames 1e99",
+                     "set passes 2x", "set color red", "set view", "set view smooth flat", "wait dinner", "frames", "frames 1e99",
                      "frames 2 3", "resize 0 5", "move inf 2", "click 1 2 both", "drag 1 2 3 4 left now", "key %", "key a alt",
-                     "open a b", "minimise now", "ray 1", "camera --up=+Z", "camera --no-such 1"):
+                     "open a b", "minimize now", "ray 1", "camera --up=+Z", "camera --no-such 1"):
             self.wrong_line(line)
 
     def test_a_script_ends_with_its_last_line(self):
@@ -107,7 +107,7 @@ class View(driver.Scripted):
     def test_split_screen_shows_one_picture(self):
         blob = mesh("blob", 3000)
         states = self.view(f"""set panels off
-            wait optimised
+            wait optimized
             screenshot {driver.folder}/single.png
             set mode split
             set divider 0.4
@@ -160,7 +160,7 @@ class View(driver.Scripted):
             bad.append(os.path.join(driver.folder, f"bad{i}.ply"))
             with open(bad[-1], "wb") as file:
                 file.write([b"", b"ply\nformat ascii 1.0\nelement vertex 3\n", os.urandom(200)][i % 3])
-        states = self.view(f"""wait optimised
+        states = self.view(f"""wait optimized
             print
             drop {bad[0]}
             wait error
@@ -172,7 +172,7 @@ class View(driver.Scripted):
             print
             drop {' '.join(bad)} {sphere}
             frames 300
-            wait optimised
+            wait optimized
             print""", torus)
         self.assertEqual([state["file"] for state in states[:3]], [torus] * 3)
         # After `wait error` the picture has the notice: red, in the middle, below the legend.
@@ -184,11 +184,11 @@ class View(driver.Scripted):
         self.assertNotEqual(states[2]["error"], "")
         self.assertEqual((states[3]["file"], states[3]["error"]), (sphere, ""))
 
-    def test_resizing_and_minimising(self):
-        states = self.view("""wait optimised
+    def test_resizing_and_minimizing(self):
+        states = self.view("""wait optimized
             resize 700 500
             print
-            minimise
+            minimize
             frames 5
             restore
             frames 3
@@ -202,7 +202,7 @@ class View(driver.Scripted):
         self.assertEqual([state["size"] for state in states], [[700, 500], [321, 203], [400, 300]])
 
     def test_another_ring(self):
-        states = self.view("""wait optimised
+        states = self.view("""wait optimized
             print
             set passes 0
             wait settled
@@ -267,7 +267,7 @@ class View(driver.Scripted):
     def test_the_ring_lies_over_the_surface_from_the_start(self):
         blob = mesh("blob", 3000)
         states = self.view(f"""set panels off
-            wait optimised
+            wait optimized
             screenshot {driver.folder}/ring-on.png
             print
             key e
@@ -298,14 +298,14 @@ class View(driver.Scripted):
 
     def test_materials_are_seen_at_first(self):
         globe = self.globe()
-        states = self.view(f"wait optimised\nprint\nopen {mesh('torus', 500)}\nwait optimised\nprint\n"
-                           f"set view flat\nopen {globe}\nwait optimised\nprint", globe)
+        states = self.view(f"wait optimized\nprint\nopen {mesh('torus', 500)}\nwait optimized\nprint\n"
+                           f"set view flat\nopen {globe}\nwait optimized\nprint", globe)
         self.assertEqual([state["choices"]["view"] for state in states], ["material", "smooth", "flat"])
 
     def test_counts_are_those_of_info(self):
         globe = self.globe()
         for path in (globe, mesh("terrain", 400), mesh("genus", 600)):
-            state, = self.view("wait optimised\nprint", path)
+            state, = self.view("wait optimized\nprint", path)
             info = json.loads(run("info", path, "--json").stdout)
             self.assertEqual([state[name] for name in ("triangles", "components", "borders", "genus")],
                              [info[name] for name in ("triangles", "components", "border_loops", "genus")])
@@ -314,13 +314,13 @@ class View(driver.Scripted):
 
     def test_welding_reads_the_file_again(self):
         globe = self.globe()
-        states = self.view("""wait optimised
+        states = self.view("""wait optimized
             print
             set weld none
-            wait optimised
+            wait optimized
             print
             set weld position
-            wait optimised
+            wait optimized
             print""", globe)
         self.assertGreater(states[0]["copies"], 0)
         self.assertEqual(states[1]["copies"], 0)

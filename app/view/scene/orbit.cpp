@@ -35,7 +35,7 @@ Result<void> Orbit::frame(const gpu::Model& model, const gpu::CameraOptions& opt
     const Vector right{m[0], m[4], m[8]}, up{m[1], m[5], m[9]}, back{m[2], m[6], m[10]};
     const Vector eye = (right * m[12] + up * m[13] + back * m[14]) * -1.0;
     const auto to_mesh = [&](const Vector& p) {
-        return p * model.radius + Vector{model.centre[0], model.centre[1], model.centre[2]};
+        return p * model.radius + Vector{model.center[0], model.center[1], model.center[2]};
     };
     const double tan_small = std::tan(radians(view_angle_) / 2);
     const auto distance_for = [&](double pixels_per_unit, double w, double h) {
@@ -51,11 +51,11 @@ Result<void> Orbit::frame(const gpu::Model& model, const gpu::CameraOptions& opt
     return {};
 }
 
-void Orbit::look_at(const Vector& centre, double radius) {
+void Orbit::look_at(const Vector& center, double radius) {
     const double distance = std::max(radius, 1e-6 * size_) * 1.3 / std::tan(radians(view_angle_) / 2);
     const Vector back = axes().back;
-    focal_ = centre;
-    eye_ = centre + back * distance;
+    focal_ = center;
+    eye_ = center + back * distance;
 }
 
 void Orbit::look_from(const Vector& direction) {

@@ -16,7 +16,7 @@ class Orbit {
     Result<void> frame(const gpu::Model& model, const gpu::CameraOptions& options, std::array<double, 2> extent,
                        std::array<double, 2> fit);
     /// Looks at a ball of the mesh, keeping the direction.
-    void look_at(const Vector& centre, double radius);
+    void look_at(const Vector& center, double radius);
     /// Moves the eye to the side `direction` of the focal point, keeping the distance.
     void look_from(const Vector& direction);
 

@@ -15,11 +15,11 @@ namespace {
 
 /// A color for a number; neighboring numbers mostly get different colors.
 std::uint32_t hashed(std::uint32_t i) {
-    constexpr std::array<std::uint32_t, 12> kColours{rgba(214, 96, 60),   rgba(66, 140, 196),  rgba(232, 184, 92),
-                                                     rgba(96, 164, 108),  rgba(146, 104, 182), rgba(196, 70, 98),
-                                                     rgba(98, 186, 190),  rgba(170, 150, 84),  rgba(120, 130, 210),
-                                                     rgba(222, 140, 160), rgba(140, 186, 84),  rgba(160, 110, 80)};
-    return kColours[(i * 2654435761U >> 8) % kColours.size()];
+    constexpr std::array<std::uint32_t, 12> kColors{rgba(214, 96, 60),   rgba(66, 140, 196),  rgba(232, 184, 92),
+                                                    rgba(96, 164, 108),  rgba(146, 104, 182), rgba(196, 70, 98),
+                                                    rgba(98, 186, 190),  rgba(170, 150, 84),  rgba(120, 130, 210),
+                                                    rgba(222, 140, 160), rgba(140, 186, 84),  rgba(160, 110, 80)};
+    return kColors[(i * 2654435761U >> 8) % kColors.size()];
 }
 
 std::vector<gpu::GrowthTriangle> triangles_across(const CornerTable& table) {
@@ -115,12 +115,12 @@ std::vector<std::uint32_t> corridors(const Document& document) {
 Painting make_painting(const Document& document, Paint paint) {
     Painting out;
     if (paint == Paint::corridors) {
-        out.colours = corridors(document);
-        for (std::uint32_t& c : out.colours) c = c == UINT32_MAX ? rgba(176, 176, 176) : hashed(c);
+        out.colors = corridors(document);
+        for (std::uint32_t& c : out.colors) c = c == UINT32_MAX ? rgba(176, 176, 176) : hashed(c);
     } else if (paint == Paint::blocks) {
         const std::vector<std::uint32_t>& order = document.model->packed.triangle_order;
-        out.colours.resize(document.mesh->triangle_count());
-        for (std::uint32_t i = 0; i < order.size(); ++i) out.colours[order[i]] = hashed(i / 256);
+        out.colors.resize(document.mesh->triangle_count());
+        for (std::uint32_t i = 0; i < order.size(); ++i) out.colors[order[i]] = hashed(i / 256);
     } else if (paint == Paint::growth) {
         out.sides = growth(document);
     } else if (paint == Paint::ring) {
@@ -166,7 +166,7 @@ Result<std::shared_ptr<const Painting>> PaintLayer::get(const std::shared_ptr<co
 }
 
 Result<void> PaintLayer::clear(Scene& scene) {
-    colours_.reset();
+    colors_.reset();
     sides_.reset();
     marked_ = kNullCorner;
     laid_ = {};
@@ -177,14 +177,14 @@ Result<void> PaintLayer::clear(Scene& scene) {
 Result<bool> PaintLayer::update(Scene& scene, const Wanted& wanted) {
     if (laid(wanted)) return false;
     bool made = true;
-    const auto [colour_paint, side_paint] = wanted.layers;
-    LR_ASSIGN(const std::shared_ptr<const Painting> colours, get(wanted.document, colour_paint));
-    if (colours || colour_paint == Paint::none) {
-        if (colours != colours_) {
-            LR_TRY(scene.set_paint(colours ? colours->colours : std::span<const std::uint32_t>{}));
+    const auto [color_paint, side_paint] = wanted.layers;
+    LR_ASSIGN(const std::shared_ptr<const Painting> colors, get(wanted.document, color_paint));
+    if (colors || color_paint == Paint::none) {
+        if (colors != colors_) {
+            LR_TRY(scene.set_paint(colors ? colors->colors : std::span<const std::uint32_t>{}));
             marked_ = kNullCorner;
         }
-        colours_ = colours;
+        colors_ = colors;
     } else {
         made = false;
     }

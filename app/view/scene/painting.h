@@ -17,7 +17,7 @@ enum class Paint { none, corridors, blocks, growth, ring };
 /// The layer of one Paint over one document. Both vectors may be empty.
 struct Painting {
     /// RGBA per triangle of the mesh; 0: not painted.
-    std::vector<std::uint32_t> colours;
+    std::vector<std::uint32_t> colors;
     /// Side of the ring, per triangle of the mesh.
     std::vector<gpu::GrowthTriangle> sides;
 };
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> corridors(const Document& document);
 
 /// Colors of one Paint, and over them the sides of another.
 struct Layers {
-    Paint colours = Paint::none, sides = Paint::none;
+    Paint colors = Paint::none, sides = Paint::none;
     bool operator==(const Layers&) const = default;
 };
 
@@ -72,7 +72,7 @@ class PaintLayer {
     std::array<Made, kPaints> made_;
     // Shared with its thread; null: none is running.
     std::shared_ptr<Job> job_;
-    std::shared_ptr<const Painting> colours_, sides_;
+    std::shared_ptr<const Painting> colors_, sides_;
     Wanted laid_;                    // the layers that the scene shows
     CornerId marked_ = kNullCorner;  // the corner whose marks the scene shows
 };

@@ -16,8 +16,8 @@ namespace {
 using gpu::Access;
 
 constexpr VkImageLayout kGeneral = VK_IMAGE_LAYOUT_GENERAL;
-constexpr Access kColourWrite{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                              VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT};
+constexpr Access kColorWrite{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                             VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT};
 constexpr Access kComposeRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
 constexpr Access kComposeWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 constexpr Access kTransferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
@@ -25,8 +25,8 @@ constexpr Access kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_
 
 /// Makes the drawn images readable for compose.comp and triangle_at.
 void leave(VkCommandBuffer commands, const gpu::Target& target) {
-    for (const gpu::Image* image : {&target.colour(), &target.triangles()}) {
-        gpu::image_barrier(commands, image->handle(), image->aspect(), kColourWrite, kComposeRead,
+    for (const gpu::Image* image : {&target.color(), &target.triangles()}) {
+        gpu::image_barrier(commands, image->handle(), image->aspect(), kColorWrite, kComposeRead,
                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kGeneral);
     }
 }
@@ -75,7 +75,7 @@ Result<void> Scene::resize(VkExtent2D extent, std::uint32_t samples, int sides) 
     blank_ = blank_ || !sides_.contains(drawn_.samples);
     if (other) {
         extent_ = {};  // until all images are made
-        LR_ASSIGN(composed_, gpu::Image::create(*context_, "composed", extent, gpu::Target::kColour,
+        LR_ASSIGN(composed_, gpu::Image::create(*context_, "composed", extent, gpu::Target::kColor,
                                                 VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     }
     for (const std::uint32_t n : {1U, samples}) {
@@ -97,9 +97,9 @@ Result<void> Scene::write_sets() {
             if (!sides.targets[last]) continue;
             VkDescriptorSet& set = sides.sets[last];
             LR_ASSIGN(set, descriptors_.allocate(layout_));
-            descriptors_.write_image(set, 0, sides.targets[0]->colour().view());
+            descriptors_.write_image(set, 0, sides.targets[0]->color().view());
             descriptors_.write_image(set, 1, sides.targets[0]->triangles().view());
-            descriptors_.write_image(set, 2, sides.targets[last]->colour().view());
+            descriptors_.write_image(set, 2, sides.targets[last]->color().view());
             descriptors_.write_image(set, 3, sides.targets[last]->triangles().view());
             descriptors_.write_image(set, 4, composed_.view());
             descriptors_.write(set, 5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {&paint_});
@@ -240,7 +240,7 @@ Result<bool> Scene::prepare(const Shown& shown) {
 void Scene::record_clear(VkCommandBuffer commands) {
     const gpu::Target& target = *sides_.at(1).targets[0];
     target.prepare(commands);
-    target.begin(commands, {.colour = true, .triangles = true, .clear_colour = true, .clear_depth = true});
+    target.begin(commands, {.color = true, .triangles = true, .clear_color = true, .clear_depth = true});
     gpu::Target::end(commands);
     leave(commands, target);
     drawn_ = {.samples = 1};
@@ -305,9 +305,9 @@ Result<VkPipeline> Scene::compose_pipeline() {
     std::uint32_t paint = painted_ ? LR_PAINT_TRIANGLES : LR_PAINT_NONE;
     if (grows_) paint |= LR_PAINT_GROWTH;
     if (has_ring_line()) paint |= LR_PAINT_RING;
-    const bool grey = view == gpu::View::smooth || view == gpu::View::flat || view == gpu::View::wire ||
+    const bool gray = view == gpu::View::smooth || view == gpu::View::flat || view == gpu::View::wire ||
                       view == gpu::View::seams || view == gpu::View::silhouette;
-    if (paint != LR_PAINT_NONE && !grey) paint |= LR_PAINT_FLAT;
+    if (paint != LR_PAINT_NONE && !gray) paint |= LR_PAINT_FLAT;
     const std::array<std::uint32_t, 3> constants{how, drawn_.samples, paint};
     gpu::PipelineHandle& made = compose_[constants];
     if (!made) {
@@ -379,12 +379,12 @@ Result<gpu::Difference> Scene::difference() {
     LR_ASSIGN(const VkCommandBuffer commands, commands_->begin());
     const auto& targets = sides_.at(drawn_.samples).targets;
     for (const auto& target : targets) {
-        for (const gpu::Image* image : {&target->colour(), &target->triangles()}) {
-            gpu::image_barrier(commands, image->handle(), image->aspect(), kComposeRead, kColourWrite, kGeneral,
+        for (const gpu::Image* image : {&target->color(), &target->triangles()}) {
+            gpu::image_barrier(commands, image->handle(), image->aspect(), kComposeRead, kColorWrite, kGeneral,
                                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
         }
         target->record_read(commands);
-        for (const gpu::Image* image : {&target->colour(), &target->triangles()}) {
+        for (const gpu::Image* image : {&target->color(), &target->triangles()}) {
             gpu::image_barrier(commands, image->handle(), image->aspect(), kTransferRead, kComposeRead,
                                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kGeneral);
         }
@@ -400,12 +400,12 @@ Result<void> Scene::hold(gpu::Buffer& buffer, const char* name, std::size_t byte
     return write_sets();
 }
 
-Result<void> Scene::set_paint(std::span<const std::uint32_t> colours) {
+Result<void> Scene::set_paint(std::span<const std::uint32_t> colors) {
     under_marks_.clear();
-    painted_ = coloured_ = !colours.empty();
+    painted_ = colored_ = !colors.empty();
     if (!painted_) return {};
-    LR_TRY(hold(paint_, "paint", colours.size_bytes()));
-    std::memcpy(paint_.mapped(), colours.data(), colours.size_bytes());
+    LR_TRY(hold(paint_, "paint", colors.size_bytes()));
+    std::memcpy(paint_.mapped(), colors.data(), colors.size_bytes());
     return {};
 }
 
@@ -413,17 +413,17 @@ Result<void> Scene::set_marks(std::span<const Mark> marks) {
     const auto exchange = [&](const Mark& mark) {
         std::byte* at = paint_.mapped() + sizeof(std::uint32_t) * mark.triangle;
         Mark under = mark;
-        std::memcpy(&under.colour, at, sizeof(under.colour));
-        std::memcpy(at, &mark.colour, sizeof(mark.colour));
+        std::memcpy(&under.color, at, sizeof(under.color));
+        std::memcpy(at, &mark.color, sizeof(mark.color));
         return under;
     };
     while (!under_marks_.empty()) {  // in reverse order: a triangle may have been marked twice
         exchange(under_marks_.back());
         under_marks_.pop_back();
     }
-    painted_ = coloured_ || !marks.empty();
+    painted_ = colored_ || !marks.empty();
     if (marks.empty() || !model_) return {};
-    if (!coloured_) {
+    if (!colored_) {
         const std::size_t bytes = sizeof(std::uint32_t) * std::size_t{model_->triangle_count()};
         LR_TRY(hold(paint_, "paint", bytes));
         std::memset(paint_.mapped(), 0, bytes);
@@ -432,9 +432,9 @@ Result<void> Scene::set_marks(std::span<const Mark> marks) {
     return {};
 }
 
-Result<void> Scene::set_sides(std::span<const gpu::GrowthTriangle> triangles, bool colours) {
+Result<void> Scene::set_sides(std::span<const gpu::GrowthTriangle> triangles, bool colors) {
     parted_ = !triangles.empty();
-    grows_ = parted_ && colours;
+    grows_ = parted_ && colors;
     if (!parted_) return {};
     LR_TRY(hold(growth_, "growth", triangles.size_bytes()));
     std::memcpy(growth_.mapped(), triangles.data(), triangles.size_bytes());

@@ -45,7 +45,7 @@ struct SceneTimes {
 /// A triangle of the mesh, and its color as RGBA.
 struct Mark {
     std::uint32_t triangle;
-    std::uint32_t colour;
+    std::uint32_t color;
 };
 
 class Scene {
@@ -66,12 +66,12 @@ class Scene {
     Result<void> set_outlines(const EncodedLr* tables, double crease);
     // Layers over the surface. Do not set them while a frame is being drawn.
     /// Sets the paint: RGBA per triangle of the mesh; empty: none.
-    Result<void> set_paint(std::span<const std::uint32_t> colours);
+    Result<void> set_paint(std::span<const std::uint32_t> colors);
     /// Sets the colors of single triangles, over the paint. Replaces all earlier marks.
     Result<void> set_marks(std::span<const Mark> marks);
     /// Sets the side of the ring of each triangle of the mesh, under paint and marks; empty: none. A line separates the
-    /// sides; `colours`: the sides are also colored.
-    Result<void> set_sides(std::span<const gpu::GrowthTriangle> triangles, bool colours);
+    /// sides; `colors`: the sides are also colored.
+    Result<void> set_sides(std::span<const gpu::GrowthTriangle> triangles, bool colors);
     /// Sets how many triangles are invaded, and how many of the last ones are highlighted.
     void grow(std::uint32_t invaded, std::uint32_t fresh);
 
@@ -155,7 +155,7 @@ class Scene {
     std::map<std::uint32_t, Sides> sides_;
     gpu::Image composed_;
     gpu::Buffer paint_, growth_, pixel_;
-    bool painted_ = false, coloured_ = false, grows_ = false, parted_ = false, blank_ = true;
+    bool painted_ = false, colored_ = false, grows_ = false, parted_ = false, blank_ = true;
     std::vector<Mark> under_marks_;  // the paint under the marks
     std::uint32_t invaded_ = 0, fresh_ = 0;
     // Mean length of an edge in the picture drawn last.

@@ -13,7 +13,7 @@ namespace {
 Vector place(const gpu::Model& model, std::uint32_t v) {
     Vector out;
     for (std::size_t i = 0; i < 3; ++i) {
-        out[i] = static_cast<double>(model.positions[3 * std::size_t{v} + i]) * model.radius + model.centre[i];
+        out[i] = static_cast<double>(model.positions[3 * std::size_t{v} + i]) * model.radius + model.center[i];
     }
     return out;
 }
@@ -104,27 +104,27 @@ std::vector<Mark> selection_marks(const Document& document, CornerId corner) {
     std::vector<Mark> out;
     if (corner.is_null()) return out;
     const CornerTable& table = *document.table;
-    const auto lay = [&](CornerId c, std::uint32_t colour) {
-        if (!c.is_null()) out.push_back({triangle(c).value, colour});
+    const auto lay = [&](CornerId c, std::uint32_t color) {
+        if (!c.is_null()) out.push_back({triangle(c).value, color});
     };
-    for (const CornerId c : around(table, corner)) lay(c, kFanColour);
-    lay(table.left(corner), kLeftColour);
-    lay(table.right(corner), kRightColour);
-    lay(table.opposite(corner), kOppositeColour);
-    lay(corner, kSelectedColour);
+    for (const CornerId c : around(table, corner)) lay(c, kFanColor);
+    lay(table.left(corner), kLeftColor);
+    lay(table.right(corner), kRightColor);
+    lay(table.opposite(corner), kOppositeColor);
+    lay(corner, kSelectedColor);
     return out;
 }
 
 std::pair<Vector, double> ball(const Document& document, CornerId corner) {
-    const Vector centre = place_of(document, corner);
+    const Vector center = place_of(document, corner);
     double squared = 0;
     for (const CornerId c : around(*document.table, corner)) {
         for (const CornerId other : {next(c), previous(c)}) {
-            const Vector d = place_of(document, other) - centre;
+            const Vector d = place_of(document, other) - center;
             squared = std::max(squared, dot(d, d));
         }
     }
-    return {centre, std::sqrt(squared) * 1.6};
+    return {center, std::sqrt(squared) * 1.6};
 }
 
 }  // namespace lacedring::view

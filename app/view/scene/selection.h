@@ -47,8 +47,8 @@ std::pair<std::array<double, 3>, double> ball(const Document& document, CornerId
 constexpr std::uint32_t rgba(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
     return r | g << 8 | b << 16 | a << 24;
 }
-constexpr std::uint32_t kSelectedColour = rgba(246, 190, 40), kOppositeColour = rgba(60, 130, 246),
-                        kLeftColour = rgba(58, 190, 96), kRightColour = rgba(226, 74, 120),
-                        kFanColour = rgba(150, 120, 220, 190);
+constexpr std::uint32_t kSelectedColor = rgba(246, 190, 40), kOppositeColor = rgba(60, 130, 246),
+                        kLeftColor = rgba(58, 190, 96), kRightColor = rgba(226, 74, 120),
+                        kFanColor = rgba(150, 120, 220, 190);
 
 }  // namespace lacedring::view

@@ -141,13 +141,13 @@ const std::vector<Script::Command>& Script::commands() {
         {"scroll", "scroll X Y STEPS", 3, 3, &Script::scroll},
         {"key", "key NAME [shift] [control]", 1, 3, &Script::key},
         {"resize", "resize W H", 2, 2, &Script::resize},
-        {"minimise", "minimise", 0, 0, &Script::minimise},
-        {"restore", "restore", 0, 0, &Script::minimise},
+        {"minimize", "minimize", 0, 0, &Script::minimize},
+        {"restore", "restore", 0, 0, &Script::minimize},
         {"close", "close", 0, 0, &Script::close},
         {"set", "set NAME VALUE", 2, 2, &Script::set},
         {"camera", "camera OPTIONS", 0, kAny, &Script::camera},
         {"frames", "frames N", 1, 1, &Script::frames},
-        {"wait", "wait mesh|settled|optimised|tables|formats|ready|shaders|error", 1, 1, &Script::wait},
+        {"wait", "wait mesh|settled|optimized|tables|formats|ready|shaders|error", 1, 1, &Script::wait},
         {"copy", "copy FROM TO", 2, 2, &Script::copy},
         {"screenshot", "screenshot FILE [now]", 1, 2, &Script::save},
         {"turntable-png", "turntable-png FOLDER [PICTURES]", 1, 2, &Script::save_turn},
@@ -248,9 +248,9 @@ Result<bool> Script::resize(const Words& words, const Stage& stage) {
     return (stage.viewer.window().width == width && stage.viewer.window().height == height) || waited_ > 60;
 }
 
-Result<bool> Script::minimise(const Words& words, const Stage& stage) {
-    const bool gone = words[0] == "minimise";
-    stage.window.minimise(gone);
+Result<bool> Script::minimize(const Words& words, const Stage& stage) {
+    const bool gone = words[0] == "minimize";
+    stage.window.minimize(gone);
     const VkExtent2D extent = gone ? VkExtent2D{} : stage.window.extent();
     stage.events.push_back({.kind = Event::resize, .x = double(extent.width), .y = double(extent.height)});
     return true;
@@ -286,14 +286,14 @@ Result<bool> Script::wait(const Words& words, const Stage& stage) {
     const bool settled = stage.viewer.settled();
     const bool failed = !facts.error.empty() && !facts.progress.busy;
     // Changes by earlier lines are visible from the next frame on.
-    const bool changing = what == "settled" || what == "optimised" || what == "ready";
+    const bool changing = what == "settled" || what == "optimized" || what == "ready";
     if (changing && waited_ < 2) return false;
     if (what == "mesh") return (document && document->stand_in == 0) || failed;
     if (what == "settled") return settled || failed || (!facts.progress.busy && !document);
-    if (what == "optimised") return (document && document->optimised && settled) || failed;
+    if (what == "optimized") return (document && document->optimized && settled) || failed;
     if (what == "tables") return facts.tables != nullptr || failed;
     if (what == "formats") return facts.formats != nullptr || failed;
-    if (what == "ready") return (document && document->optimised && facts.formats && settled) || failed;
+    if (what == "ready") return (document && document->optimized && facts.formats && settled) || failed;
     // The notice is on the screen two frames after the error.
     if (what == "error") return !facts.error.empty() && ++seen_ > 3;
     if (what == "shaders") {

@@ -54,7 +54,7 @@ class Script {
     Result<bool> scroll(const Words& words, const Stage& stage);
     Result<bool> key(const Words& words, const Stage& stage);
     Result<bool> resize(const Words& words, const Stage& stage);
-    Result<bool> minimise(const Words& words, const Stage& stage);
+    Result<bool> minimize(const Words& words, const Stage& stage);
     Result<bool> close(const Words& words, const Stage& stage);
     Result<bool> set(const Words& words, const Stage& stage);
     Result<bool> camera(const Words& words, const Stage& stage);

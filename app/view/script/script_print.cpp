@@ -34,7 +34,7 @@ std::string state_text(Viewer& viewer) {
     if (state.facts.document) {
         const Document& document = *state.facts.document;
         out["triangles"] = document.mesh->triangle_count();
-        out["optimised"] = document.optimised;
+        out["optimized"] = document.optimized;
         out["seconds"] = document.seconds;
         out["first_seconds"] = state.facts.first_seconds;
         out["shown_seconds"] = state.facts.shown_seconds;

@@ -63,10 +63,10 @@ struct Document {
     gpu::StreamViews views;
     RingSettings settings;
     /// The optimizer has run settings.passes passes.
-    bool optimised = false;
+    bool optimized = false;
     /// If this is a coarse stand-in: the triangles of the mesh that is being loaded; else 0.
     std::size_t stand_in = 0;
-    TopologyReport report;  ///< set if `optimised`
+    TopologyReport report;  ///< set if `optimized`
     StreamFigures plain, lean, packed;
     std::chrono::steady_clock::time_point asked;  ///< when the file or the ring was requested
     double seconds = 0;                           ///< from the request until this was made

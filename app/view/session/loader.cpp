@@ -286,7 +286,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
     const RingSettings& settings = request_.settings;
     const CornerTable& table = *document.table;
     // Where the progress bar stands; then come lean's passes up to 0.8 and packed's up to 1.
-    const double share = quick ? 0.55 : document.optimised ? 0.0 : 0.6;
+    const double share = quick ? 0.55 : document.optimized ? 0.0 : 0.6;
     say("making the ring", share);
     auto expansion = std::make_shared<Expansion>();
     const Rings rings = expand_rings(table, ring_options(settings, quick), expansion.get());
@@ -307,10 +307,10 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         early.rings = std::make_shared<const Rings>(rings);
         if (!set_model(early, std::move(model))) return;
         early.settings = settings;
-        early.optimised = false;
+        early.optimized = false;
         publish(early);
     };
-    const auto optimise_options = [&](const RingCost& cost, double from, double to, const char* what) {
+    const auto optimize_options = [&](const RingCost& cost, double from, double to, const char* what) {
         if (!quick) say(what, from);
         OptimizeOptions options;
         options.cost = cost;
@@ -325,14 +325,14 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
         return options;
     };
     auto lean_rings = std::make_shared<Rings>(
-        optimize_rings(table, rings, optimise_options(kLeanRingCost, share, 0.8, "optimizing the ring")));
+        optimize_rings(table, rings, optimize_options(kLeanRingCost, share, 0.8, "optimizing the ring")));
     if (stopped()) return {};
     auto model = std::make_shared<OwningModel>(*document.model);
     LR_ASSIGN(model->lean, encode_lean(table, *lean_rings, {.wart_skipping = settings.warts}));
     if (!quick) {
-        const OptimizeOptions optimise =
-            optimise_options(kPackedRingCost, 0.8, 1.0, "optimizing for the packed stream");
-        LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, ring_options(settings, quick), optimise));
+        const OptimizeOptions optimize =
+            optimize_options(kPackedRingCost, 0.8, 1.0, "optimizing for the packed stream");
+        LR_ASSIGN(PackedChoice packed, encode_smallest_packed(table, ring_options(settings, quick), optimize));
         model->packed = std::move(packed.stream);
     }
     LR_TRY(gpu::encode_seams(*model));
@@ -342,7 +342,7 @@ Result<void> Loader::Job::finish(Document& document, bool quick) {
     if (!document.expansion || *document.expansion != *expansion) document.expansion = std::move(expansion);
     LR_TRY(set_model(document, std::move(model)));
     document.settings = settings;
-    document.optimised = !quick;
+    document.optimized = !quick;
     publish(document);
     return {};
 }
@@ -424,7 +424,7 @@ void Loader::Job::work() {
     } else {
         if (!begin_computing()) return;
         document = *request_.document;
-        document.optimised = true;  // the progress bar begins with the ring
+        document.optimized = true;  // the progress bar begins with the ring
     }
     if (stopped()) return;
     if (reads()) document.report = report_topology(*document.table);

@@ -14,21 +14,21 @@ ImVec2 at(const std::array<double, 2>& p) {
     return {static_cast<float>(p[0]), static_cast<float>(p[1])};
 }
 
-void letter(ImVec2 place, const char* text, std::uint32_t colour) {
+void letter(ImVec2 place, const char* text, std::uint32_t color) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float radius = px(9);
     list.AddCircleFilled(place, radius, IM_COL32(20, 21, 24, 235));
-    list.AddCircle(place, radius, colour | 0xff000000U, 0, px(1.5F));
+    list.AddCircle(place, radius, color | 0xff000000U, 0, px(1.5F));
     const ImVec2 size = ImGui::CalcTextSize(text);
     list.AddText({place.x - size.x / 2, place.y - size.y / 2}, IM_COL32_WHITE, text);
 }
 
 void mark_selection(const State& state, const Orbit& orbit, double width, double height) {
     const Document& document = *state.facts.document;
-    const auto place = [&](CornerId c, double towards) {
+    const auto place = [&](CornerId c, double toward) {
         // A corner is drawn inside its triangle, near its vertex.
         Vector p{};
-        const double weight[3] = {towards, (1 - towards) / 2, (1 - towards) / 2};
+        const double weight[3] = {toward, (1 - toward) / 2, (1 - toward) / 2};
         const CornerId corners[3] = {c, next(c), previous(c)};
         for (std::size_t j = 0; j < 3; ++j) {
             p = p + place_of(document, corners[j]) * weight[j];
@@ -38,20 +38,20 @@ void mark_selection(const State& state, const Orbit& orbit, double width, double
     const CornerTable& table = *document.table;
     const CornerId c = state.facts.selection.corner;
     const std::array<std::tuple<CornerId, const char*, std::uint32_t>, 7> marks{
-        {{table.swing(c), "s", kFanColour},
-         {table.right(c), "r", kRightColour},
-         {table.left(c), "l", kLeftColour},
-         {table.opposite(c), "o", kOppositeColour},
+        {{table.swing(c), "s", kFanColor},
+         {table.right(c), "r", kRightColor},
+         {table.left(c), "l", kLeftColor},
+         {table.opposite(c), "o", kOppositeColor},
          {previous(c), "p", rgba(150, 150, 150)},
          {next(c), "n", rgba(150, 150, 150)},
-         {c, "c", kSelectedColour}}};
+         {c, "c", kSelectedColor}}};
     // Draw letters only if the triangles are large enough.
     const auto a = place(c, 1), b = place(next(c), 1);
     const bool room = a && b && std::hypot((*a)[0] - (*b)[0], (*a)[1] - (*b)[1]) > static_cast<double>(px(46));
     // The last mark is the most important. A mark that would overlap a more important one becomes a dot.
     std::vector<ImVec2> places(marks.size());
     for (std::size_t i = marks.size(); i-- > 0;) {
-        const auto& [corner, text, colour] = marks[i];
+        const auto& [corner, text, color] = marks[i];
         if (corner.is_null() || (!room && corner != c)) continue;
         if (const auto p = place(corner, room ? 0.72 : 1.0)) {
             places[i] = at(*p);
@@ -59,9 +59,9 @@ void mark_selection(const State& state, const Orbit& orbit, double width, double
                 std::none_of(places.begin() + static_cast<std::ptrdiff_t>(i) + 1, places.end(),
                              [&](ImVec2 q) { return std::hypot(q.x - places[i].x, q.y - places[i].y) < px(19); });
             if (room && free) {
-                letter(at(*p), text, colour);
+                letter(at(*p), text, color);
             } else {
-                ImGui::GetBackgroundDrawList()->AddCircleFilled(at(*p), px(4), colour | 0xff000000U);
+                ImGui::GetBackgroundDrawList()->AddCircleFilled(at(*p), px(4), color | 0xff000000U);
                 ImGui::GetBackgroundDrawList()->AddCircle(at(*p), px(4), IM_COL32(20, 21, 24, 235), 0, px(1));
             }
         }

@@ -18,7 +18,7 @@ namespace {
 /// A swatch, a line or a ramp of colors, and its meaning.
 struct Entry {
     enum Kind { swatch, line, ramp, text } kind = swatch;
-    std::vector<ImU32> colours;
+    std::vector<ImU32> colors;
     std::string what;
 };
 
@@ -29,7 +29,7 @@ ImU32 linear(float r, float g, float b) {
 }
 
 /// The ring is drawn in black; on the dark legend, draw() puts it on a pale ground.
-const ImU32 kLine = IM_COL32(12, 12, 14, 255), kGrey = IM_COL32(176, 176, 176, 255);
+const ImU32 kLine = IM_COL32(12, 12, 14, 255), kGray = IM_COL32(176, 176, 176, 255);
 
 void add_view(const State& state, bool ring_line, std::vector<Entry>& out) {
     const ImU32 t0 = linear(0.13F, 0.42F, 0.10F), none = linear(0.30F, 0.30F, 0.30F);  // as in surface.frag
@@ -80,7 +80,7 @@ void add_paint(const State& state, std::vector<Entry>& out) {
     const std::vector<ImU32> many(std::begin(some), std::end(some));
     if (state.choices.paint == Paint::corridors) {
         out.push_back({Entry::swatch, many, "corridors: strips of T1"});
-        out.push_back({Entry::swatch, {kGrey}, "in none: T0, T2"});
+        out.push_back({Entry::swatch, {kGray}, "in none: T0, T2"});
     } else if (state.choices.paint == Paint::blocks) {
         out.push_back({Entry::swatch, many, "blocks of packed: 256 triangles"});
     } else if (state.choices.paint == Paint::growth) {
@@ -90,12 +90,12 @@ void add_paint(const State& state, std::vector<Entry>& out) {
         const auto line = [&](unsigned r, unsigned g, unsigned b, const char* what) {
             out.push_back({Entry::line, {IM_COL32(r, g, b, 255)}, what});
         };
-        swatch(LR_GROWTH_INVADED_COLOUR, "invaded: left of the ring");
-        swatch(LR_GROWTH_NEWEST_COLOUR, "invaded just now");
-        swatch(LR_GROWTH_RIGHT_COLOUR, "never invaded: right of it");
-        swatch(LR_GROWTH_NOT_YET_COLOUR, "not yet reached");
-        line(LR_GROWTH_LINE_COLOUR, "the ring, where it will stay");
-        line(LR_GROWTH_FRONT_COLOUR, "front: may still be crossed");
+        swatch(LR_GROWTH_INVADED_COLOR, "invaded: left of the ring");
+        swatch(LR_GROWTH_NEWEST_COLOR, "invaded just now");
+        swatch(LR_GROWTH_RIGHT_COLOR, "never invaded: right of it");
+        swatch(LR_GROWTH_NOT_YET_COLOR, "not yet reached");
+        line(LR_GROWTH_LINE_COLOR, "the ring, where it will stay");
+        line(LR_GROWTH_FRONT_COLOR, "front: may still be crossed");
         const double end = state.facts.growth_end();
         out.push_back(
             {Entry::text,
@@ -148,20 +148,20 @@ void draw(const Entry& entry, ImVec2 at) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float height = ImGui::GetTextLineHeight(), width = px(kMark) - px(8);
     const float top = at.y + px(2), bottom = at.y + height - px(1), middle = (top + bottom) / 2;
-    const auto count = static_cast<float>(entry.colours.size());
+    const auto count = static_cast<float>(entry.colors.size());
     if (entry.kind == Entry::line) {
         list.AddRectFilled({at.x, top}, {at.x + width, bottom}, IM_COL32(222, 222, 218, 255), px(2));
-        list.AddLine({at.x + px(1), middle}, {at.x + width - px(1), middle}, entry.colours[0], px(2));
+        list.AddLine({at.x + px(1), middle}, {at.x + width - px(1), middle}, entry.colors[0], px(2));
     } else if (entry.kind == Entry::swatch) {
-        for (std::size_t i = 0; i < entry.colours.size(); ++i) {
+        for (std::size_t i = 0; i < entry.colors.size(); ++i) {
             const float from = at.x + width * static_cast<float>(i) / count;
-            list.AddRectFilled({from, top}, {from + width / count, bottom}, entry.colours[i], count > 1 ? 0 : px(2));
+            list.AddRectFilled({from, top}, {from + width / count, bottom}, entry.colors[i], count > 1 ? 0 : px(2));
         }
     } else if (entry.kind == Entry::ramp) {
-        for (std::size_t i = 0; i + 1 < entry.colours.size(); ++i) {
+        for (std::size_t i = 0; i + 1 < entry.colors.size(); ++i) {
             const float step = width / (count - 1), from = at.x + step * static_cast<float>(i);
-            list.AddRectFilledMultiColor({from, top}, {from + step, bottom}, entry.colours[i], entry.colours[i + 1],
-                                         entry.colours[i + 1], entry.colours[i]);
+            list.AddRectFilledMultiColor({from, top}, {from + step, bottom}, entry.colors[i], entry.colors[i + 1],
+                                         entry.colors[i + 1], entry.colors[i]);
         }
     }
     ImGui::SetCursorScreenPos({at.x + (entry.kind == Entry::text ? 0 : px(kMark)), at.y});

@@ -74,7 +74,7 @@ void draw_stream_figures(const State& state) {
         row("made in", fmt::format("{:.2f} s", document.seconds),
             "Time from the request until these streams were made: reading, rings, passes of the optimizer");
         row("optimizer",
-            !document.optimised              ? "not yet"
+            !document.optimized              ? "not yet"
             : document.settings.passes == 0  ? "off"
             : document.settings.passes == 1u ? "1 pass"
                                              : fmt::format("{} passes", document.settings.passes),
@@ -159,9 +159,9 @@ void draw_format(const Bar& bar, float bits_at, float bytes_at) {
     // Bits of a 32-bit index list; longer bars are cut.
     constexpr double kMost = 96;
     const float length = std::max(px(1.5F), width * static_cast<float>(std::min(1.0, bar.bits / kMost)));
-    const auto put = [&](const std::string& text, float right, ImGuiCol colour) {
+    const auto put = [&](const std::string& text, float right, ImGuiCol color) {
         ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
-        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[colour]);
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[color]);
         ImGui::TextUnformatted(text.c_str());
         ImGui::PopStyleColor();
     };

@@ -12,7 +12,7 @@
 namespace lacedring::view {
 namespace {
 
-ImVec4 colour(std::uint32_t rgba) {
+ImVec4 color(std::uint32_t rgba) {
     return ImGui::ColorConvertU32ToFloat4(rgba | 0xff000000U);
 }
 
@@ -60,9 +60,9 @@ void line(const Document& document, const char* letter, const char* name, std::u
           const char* explained) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextColored(colour(rgba), "%s", letter);
+    ImGui::TextColored(color(rgba), "%s", letter);
     ImGui::TableNextColumn();
-    ImGui::TextColored(colour(rgba), "%s", name);
+    ImGui::TextColored(color(rgba), "%s", name);
     explain(explained);
     if (c.is_null()) {
         cell("border");
@@ -75,7 +75,7 @@ void line(const Document& document, const char* letter, const char* name, std::u
 
 void draw_operators(const Document& document, CornerId c) {
     const CornerTable& table = *document.table;
-    const std::uint32_t grey = 0xffb4b0aeU;
+    const std::uint32_t gray = 0xffb4b0aeU;
     if (!ImGui::BeginTable("operators", 5, ImGuiTableFlags_SizingFixedFit)) return;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -84,14 +84,14 @@ void draw_operators(const Document& document, CornerId c) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("  %s", name);
     }
-    line(document, "c", "selected", kSelectedColour, c, "The corner nearest to where you clicked");
-    line(document, "n", "next", grey, next(c), "The next corner of the triangle, counterclockwise. Key N");
-    line(document, "p", "previous", grey, previous(c), "The previous corner of the triangle, clockwise. Key P");
-    line(document, "o", "opposite", kOppositeColour, table.opposite(c),
+    line(document, "c", "selected", kSelectedColor, c, "The corner nearest to where you clicked");
+    line(document, "n", "next", gray, next(c), "The next corner of the triangle, counterclockwise. Key N");
+    line(document, "p", "previous", gray, previous(c), "The previous corner of the triangle, clockwise. Key P");
+    line(document, "o", "opposite", kOppositeColor, table.opposite(c),
          "The corner of the neighbor across the edge that faces the selected corner. Key O");
-    line(document, "l", "left", kLeftColour, table.left(c), "The next corner's opposite. Key L");
-    line(document, "r", "right", kRightColour, table.right(c), "The previous corner's opposite. Key R");
-    line(document, "s", "swing", kFanColour, table.swing(c),
+    line(document, "l", "left", kLeftColor, table.left(c), "The next corner's opposite. Key L");
+    line(document, "r", "right", kRightColor, table.right(c), "The previous corner's opposite. Key R");
+    line(document, "s", "swing", kFanColor, table.swing(c),
          "The corner of the next triangle around the same vertex. All triangles around it are violet. Key S");
     ImGui::EndTable();
 }

@@ -67,7 +67,7 @@ std::vector<std::string> counts(const Document& document) {
     if (document.surface->has_seams()) {
         out.push_back(counted(document.mesh->vertex_count, "copy", "copies"));
     }
-    if (!document.optimised) return out;
+    if (!document.optimized) return out;
     const TopologyReport& report = document.report;
     out.push_back(counted(report.components, "component", "components"));
     out.push_back(counted(static_cast<std::int64_t>(document.rings->count()), "ring", "rings"));
@@ -188,16 +188,16 @@ void draw_note(const State& state) {
 /// Draws an invitation, or the progress, in the middle of an empty window.
 void invite(const State& state, float left, float right, float height) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const auto centred = [&](const char* text, float size, float y, ImU32 colour) {
+    const auto centered = [&](const char* text, float size, float y, ImU32 color) {
         const float width = ImGui::CalcTextSize(text).x * size / ImGui::GetFontSize();
-        list.AddText(ImGui::GetFont(), size, {(left + right - width) / 2, y}, colour, text);
+        list.AddText(ImGui::GetFont(), size, {(left + right - width) / 2, y}, color, text);
     };
     if (state.facts.progress.busy) {
-        centred(state.facts.progress.what.c_str(), px(18), height / 2 - px(20), IM_COL32(70, 72, 78, 255));
+        centered(state.facts.progress.what.c_str(), px(18), height / 2 - px(20), IM_COL32(70, 72, 78, 255));
         return;
     }
-    centred("Drop a mesh here", px(22), height / 2 - px(26), IM_COL32(70, 72, 78, 255));
-    centred("glTF, GLB, OBJ, PLY, OFF, STL or LR", px(15), height / 2 + px(8), IM_COL32(100, 103, 110, 255));
+    centered("Drop a mesh here", px(22), height / 2 - px(26), IM_COL32(70, 72, 78, 255));
+    centered("glTF, GLB, OBJ, PLY, OFF, STL or LR", px(15), height / 2 + px(8), IM_COL32(100, 103, 110, 255));
 }
 
 /// Draws the box of the selection; returns its upper end.

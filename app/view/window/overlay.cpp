@@ -24,7 +24,7 @@ constexpr Access kCopyRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRA
 
 Result<gpu::RenderPassHandle> create_pass(gpu::Context& context) {
     VkAttachmentDescription attachment{};
-    attachment.format = gpu::Target::kColour;
+    attachment.format = gpu::Target::kColor;
     attachment.samples = VK_SAMPLE_COUNT_1_BIT;
     attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
     attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -126,7 +126,7 @@ Overlay::~Overlay() {
 Result<void> Overlay::resize(VkExtent2D extent) {
     framebuffer_ = {};
     extent_ = extent;
-    LR_ASSIGN(image_, gpu::Image::create(*context_, "window", extent, gpu::Target::kColour,
+    LR_ASSIGN(image_, gpu::Image::create(*context_, "window", extent, gpu::Target::kColor,
                                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     const VkImageView view = image_.view();

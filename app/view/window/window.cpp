@@ -180,8 +180,8 @@ void Window::shrink(double width, double height) {
     set_size(static_cast<std::uint32_t>(std::min(width, most)), static_cast<std::uint32_t>(std::min(height, most)));
 }
 
-void Window::minimise(bool minimised) {
-    if (minimised) {
+void Window::minimize(bool minimized) {
+    if (minimized) {
         glfwIconifyWindow(window_);
     } else {
         glfwRestoreWindow(window_);

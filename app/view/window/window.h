@@ -37,7 +37,7 @@ class Window {
     /// Limits the sides of the window to `side` pixels: asks the window system for the limit, and shrinks a window that
     /// is larger nevertheless, once for each size.
     void limit_size(std::uint32_t side);
-    void minimise(bool minimised);
+    void minimize(bool minimized);
     void hide();
     void set_title(const std::string& title);
     void set_clipboard(const std::string& text);

@@ -399,8 +399,8 @@ struct lacedring_seam_numbers_ {
     struct lacedring_seam_walk_ walk;
 };
 
-/* Collects the fan of vertex v: its corners in order from edge (v, v + 1) towards v - 1 (by = 1), or from edge (v, v -
-   1) towards v + 1 (by = 2), as far as triangles follow. Returns their number. */
+/* Collects the fan of vertex v: its corners in order from edge (v, v + 1) toward v - 1 (by = 1), or from edge (v, v -
+   1) toward v + 1 (by = 2), as far as triangles follow. Returns their number. */
 static uint32_t lacedring_seam_fan_(struct lacedring_seam_copies_* w, uint32_t v, uint32_t by, uint32_t* fan) {
     const uint32_t* own = w->own + w->vertices[v].begin;
     const uint32_t n = w->vertices[v + 1].begin - w->vertices[v].begin;
