@@ -52,7 +52,8 @@ td.strong { font-weight: 650; }
 tr.ours th { color: var(--ours); } tr.paper th { color: var(--paper); }
 tbody tr:hover td, tbody tr:hover th { background: var(--band); }
 tr.sum td, tr.sum th { border-top: 1px solid var(--line); color: var(--soft); }
-th.name { white-space: normal; overflow-wrap: break-word; min-width: 9em; max-width: 22em; }
+th.name { white-space: normal; overflow-wrap: break-word; min-width: 9em; max-width: 20em; }
+.overview th, .overview td { padding: 4px 3px; }
 .overview thead th { white-space: normal; } .overview [scope=colgroup] { text-align: center; }
 figure { margin: 0; }
 .bars ul { list-style: none; margin: 0; padding: 0; }
@@ -90,7 +91,7 @@ details { margin-top: 8px; } summary { cursor: pointer; color: var(--link); font
   background: linear-gradient(90deg, #3b52ba, #309bdb, #cce3dc, #f6b562, #c0282f); }
 footer { margin-top: 48px; padding-top: 12px; border-top: 2px solid var(--line); }
 .made dt { float: left; clear: left; min-width: 6.5em; } .made dd { margin: 0 0 2px 6.5em; }
-@media (max-width: 1180px) {
+@media (max-width: 1250px) {
   table { font-size: .8rem; } th, td { padding: 4px; }
   table.sizes td.left { white-space: normal; min-width: 6.5em; } table.sizes td.what { min-width: 11em; }
 }

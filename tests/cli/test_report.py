@@ -367,6 +367,36 @@ class Browser(CliTest):
         self.assertGreater(light, 240)
         self.assertLess(dark, 40)
 
+    def test_it_fits_its_window(self):
+        """Nothing scrolls sideways on a laptop; on a phone the tables alone do, inside the page."""
+        page = self.path("page.html")
+        self.ok("report", self.generate("soup", 3000), self.generate("parts", 600), "--no-gpu", "-o", page)
+        with open(page, encoding="utf-8") as file:
+            text = re.sub(r"<meta http-equiv=[^>]*>", "", file.read())  # it forbids scripts
+        # As wide as counts of large meshes make it.
+        text = re.sub(r'(<td class="strong">[^<]*</td><td>)[\d,]+', r"\g<1>123,456,789", text).replace("<td>3,000</td>", "<td>30,000,000</td>")
+        measure = """<script>
+            const beyond = [...document.querySelectorAll("body *")].filter((e) => !e.closest(".wide") && e.getBoundingClientRect().right > innerWidth);
+            const scrolls = [...document.querySelectorAll(".wide")].filter((e) => e.scrollWidth > e.clientWidth);
+            parent.postMessage([innerWidth, document.documentElement.scrollWidth, beyond.length, scrolls.length], "*");
+            </script>"""
+        self.write("measured.html", (text + measure).encode())
+        widths = (1100, 1200, 1440, 390)
+        frames = "".join(f'<iframe src="measured.html" style="width:{width}px;height:800px;border:0"></iframe>' for width in widths)
+        listen = '<pre></pre><script>onmessage = (e) => { document.querySelector("pre").textContent += e.data + ";"; }</script>'
+        wrapper = self.write("wrapper.html", f"<body>{listen}{frames}</body>".encode())
+        dom = subprocess.run([shutil.which("chromium"), "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+                              f"--user-data-dir={tempfile.mkdtemp(prefix='profile-', dir=self.folder)}", "--virtual-time-budget=5000",
+                              "--dump-dom", "file://" + wrapper], capture_output=True, text=True, timeout=60, check=True).stdout
+        measured = {int(line.split(",")[0]): line for line in re.search("<pre>(.*?);</pre>", dom)[1].split(";")}
+        self.assertEqual(sorted(measured), sorted(widths), dom)
+        for width, line in measured.items():
+            _, page_width, beyond, scrolls = map(int, line.split(","))
+            self.assertLessEqual(page_width, width, line)
+            self.assertEqual(beyond, 0, line)
+            if width >= 1100:
+                self.assertEqual(scrolls, 0, line)
+
     def test_the_console_reports_a_failed_request(self):
         self.ok("report", self.generate("torus", 200), "--no-gpu", "-o", self.path("page.html"))
         with open(self.path("page.html"), encoding="utf-8") as file:
