@@ -109,7 +109,7 @@ struct Encoded {
 
 /// Encodes any triangle soup: three `indices` per triangle, below `vertex_count`. Triangles with a repeated vertex are
 /// left out; all others keep their orientation. The words are the same on every machine. Cost: O(T) time for each pass
-/// and seed; about 60 bytes per triangle. Errors: malformed (index out of range), invalid_argument (a number of indices
+/// and seed; about 70 bytes per triangle. Errors: malformed (index out of range), invalid_argument (a number of indices
 /// that is no multiple of three, an option out of its range), too_large.
 Result<Encoded> encode(std::span<const std::uint32_t> indices, std::uint32_t vertex_count,
                        const EncodeOptions& options = {});
