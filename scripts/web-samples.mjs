@@ -1,6 +1,6 @@
 // node web-samples.mjs PROGRAM FOLDER: packs the page's samples from assets/ to FOLDER, and writes FOLDER/index.json
-// with their names and the sizes that browsers cannot measure. Without the program, copies plain samples, which the
-// page encodes itself.
+// with their names and Brotli sizes, since browsers cannot compress with Brotli. If PROGRAM does not exist, copies the
+// .glb samples unpacked; the page then encodes them itself.
 import {execFileSync} from "node:child_process";
 import {copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {dirname, join} from "node:path";

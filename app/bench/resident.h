@@ -22,7 +22,7 @@ struct ResidentOptions {
     /// Limits as multiples of the corner table's size. The sizes of LR, of bit-efficient LR, and half that of LR are
     /// added.
     std::vector<double> levels = {1.25, 1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
-    std::size_t page_kib = 0;  ///< 0: by the mesh's size, mostly 32
+    std::size_t page_kib = 0;  ///< 0: chosen by the mesh's size, mostly 32
     int rounds = 5;
 };
 

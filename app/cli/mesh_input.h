@@ -15,7 +15,7 @@ struct InputOptions {
     bool allow_outside = false;
     bool materials = false;  ///< reads materials, too
     bool writes = false;     ///< the command writes what it reads: notes say what is not kept, and recommend `pack`
-    std::uint64_t max_memory = 0;  ///< MiB; 0: by the file's size (ReadOptions)
+    std::uint64_t max_memory = 0;  ///< MiB; 0: derived from the file's size (ReadOptions)
     /// Bytes per triangle that the command takes at its peak, without the mesh (docs/reliability.md).
     std::uint32_t triangle_bytes = 0;
     /// Most threads that restore streams from storage form; 0: all of the machine.

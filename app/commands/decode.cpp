@@ -22,7 +22,7 @@ struct DecodeOptions {
     std::vector<std::string> inputs;
     InputOptions input;  ///< only max_memory and threads
     OutputOptions output;
-    std::string format;  ///< "": by the extension
+    std::string format;  ///< "": chosen by the extension
     bool original_order = false;
 };
 

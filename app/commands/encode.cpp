@@ -109,7 +109,7 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
         return fail(output_name(output), written.error());
     }
     if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
-    if (turned > 0) log.note(input_name(input), fmt::format("{} triangles turned round by --orient", turned));
+    if (turned > 0) log.note(input_name(input), fmt::format("{} triangles reversed by --orient", turned));
     note_lossless(log, input, whole->attributes);
     const LrFile& file = whole->file;
     const Connectivity connectivity = connectivity_of(bytes);

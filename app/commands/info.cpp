@@ -133,7 +133,7 @@ int run_info(const InfoOptions& options, RunLog& log) {
     line("non-manifold", fmt::format("{} edges, {} vertices", t.nonmanifold_edges, r.nonmanifold_vertices));
     line("orientation", !r.orientable    ? fmt::format("not orientable: cut at {} edges", t.cut_edges)
                         : t.flipped == 0 ? "consistent"
-                                         : fmt::format("orientable once {} triangles are turned round", t.flipped));
+                                         : fmt::format("orientable once {} triangles are reversed", t.flipped));
     line("Euler characteristic", fmt::format("{}", r.euler_characteristic));
     line("genus", fmt::format("{}{}{}", r.genus, r.shells > 1 ? ", all pieces together" : "",
                               r.orientable ? "" : ", of the surface as cut"));

@@ -32,7 +32,7 @@ std::string command_line(const CLI::App& command) {
     std::string out = "lacedring " + command.get_name(), positional;
     bool dashes = false;  // a file name begins with a dash
     for (const CLI::Option* option : command.get_options()) {
-        if (option->count() == 0 || option->get_name() == "--quiet") continue;  // the page is the same
+        if (option->count() == 0 || option->get_name() == "--quiet") continue;  // --quiet does not change the page
         const bool flag = option->get_items_expected_max() == 0;
         for (const std::string& value : option->results()) {
             const bool dash = value.starts_with('-');

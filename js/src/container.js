@@ -53,7 +53,7 @@ export function readContainer(bytes, crc) {
     if (section.nameLength !== undefined) readName(bytes, section, copies);
     sections.push(section);
   }
-  if (end !== bytes.length) throw malformed("bytes behind the last section", "SIZE");
+  if (end !== bytes.length) throw malformed("bytes after the last section", "SIZE");
   return {vertices, triangles, copies, sections};
 }
 

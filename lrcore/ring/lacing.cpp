@@ -70,7 +70,8 @@ bool Lacing::has_expensive() const {
     return false;
 }
 
-/// Are neighbors so far apart, on average, that ranges of `range` triangles have long borders?
+/// Returns whether the mean index distance of adjacent triangles, each capped at `range`, is so large that ranges of
+/// `range` triangles would have long borders.
 bool Lacing::scattered(std::uint32_t range) const {
     constexpr std::uint32_t kStep = 16;  // samples one triangle in kStep
     std::uint64_t distances = 0, corners = 0;

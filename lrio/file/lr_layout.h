@@ -154,7 +154,7 @@ Result<FileHeader> visit_sections(std::span<const std::byte> bytes, Visit visit)
             return malformed_lr(fmt::format("section {}: {}", i, why));
         }
     }
-    if (end != bytes.size()) return malformed_lr("bytes behind the last section");
+    if (end != bytes.size()) return malformed_lr("bytes after the last section");
     return header;
 }
 

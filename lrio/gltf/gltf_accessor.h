@@ -42,7 +42,7 @@ bool is_padded_matrix(const tinygltf::Accessor& accessor);
 
 /// Opens the accessor's buffers and decodes compressed data. An accessor without a buffer view is all zeros and may
 /// have any count: check the memory limit before allocating for it. Errors: malformed, unsupported, too_large,
-/// memory_limit, GltfBuffers::open's.
+/// memory_limit, those of GltfBuffers::open.
 Result<AccessorView> view_accessor(GltfFile& file, int index);
 
 /// Writes the elements to `out`, count * element_bytes() tightly packed bytes, and replaces the sparse ones. Errors:

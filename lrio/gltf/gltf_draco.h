@@ -14,7 +14,7 @@ Result<void> find_draco_primitives(GltfFile& file);
 
 /// Returns the decoded values of an accessor in file.draco.sources, tightly packed, in the accessor's type. Their
 /// number is that of the Draco data, not the accessor's count. The data is decoded once and kept in the file. Errors:
-/// malformed, unsupported, memory_limit, open_view's.
+/// malformed, unsupported, memory_limit, those of open_view.
 Result<std::span<const std::byte>> draco_values(GltfFile& file, int accessor);
 
 }  // namespace lacedring::detail

@@ -52,7 +52,7 @@ class MeshPlans {
   public:
     MeshPlans(GltfFile& file, Reading& reading) : file_(file), reading_(reading) {}
 
-    /// Errors: malformed, unsupported, view_accessor's.
+    /// Errors: malformed, unsupported, those of view_accessor.
     Result<void> make(const std::vector<MeshInstance>& instances);
 
     /// A plan for each of the file's meshes; MeshPlan::made is false if no instance places the mesh.

@@ -19,7 +19,7 @@ struct MeshInstance {
 /// first scene; without scenes, all root nodes; without nodes, each mesh once. A skinned mesh is not transformed. A
 /// node with EXT_mesh_gpu_instancing places its mesh once for each of the extension's instances, in order.
 /// Errors: malformed (references out of range, cycles, nodes with two parents), memory_limit (instances),
-/// view_accessor's.
+/// those of view_accessor.
 Result<std::vector<MeshInstance>> place_meshes(GltfFile& file, Reading& reading, std::size_t file_bytes);
 
 }  // namespace lacedring::detail

@@ -66,7 +66,7 @@ Result<void> append_values(const AccessorView& view, const Transform& transform,
     return {};
 }
 
-void turn_round(std::span<std::uint32_t> indices) {
+void reverse_orientation(std::span<std::uint32_t> indices) {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
 }
 
@@ -89,7 +89,7 @@ Mesh place(const Mesh& mesh, const Placement& placement) {
         detail::append_floats(from.data.data(), from, mesh.vertex_count, transform, to);
         out.attributes.push_back(std::move(to));
     }
-    if (mirrors(placement)) detail::turn_round(out.indices);
+    if (mirrors(placement)) detail::reverse_orientation(out.indices);
     return out;
 }
 

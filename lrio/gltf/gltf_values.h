@@ -15,10 +15,10 @@ namespace lacedring::detail {
 bool is_direction(const Attribute& attribute);
 
 /// Appends the accessor's elements to the attribute. Elements that `transform` changes, or whose type is not the
-/// attribute's, are converted to floats: `to` must be of floats then. Errors: copy_elements's.
+/// attribute's, are converted to floats: `to` must be of floats then. Errors: those of copy_elements.
 Result<void> append_values(const AccessorView& view, const Transform& transform, Attribute& to);
 
 /// Reverses the orientation of each triangle by swapping its last two corners.
-void turn_round(std::span<std::uint32_t> indices);
+void reverse_orientation(std::span<std::uint32_t> indices);
 
 }  // namespace lacedring::detail

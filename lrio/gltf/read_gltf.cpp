@@ -199,7 +199,7 @@ class GltfJoiner {
                                                             primitive.number, good.error().message)};
             }
             const auto added = std::span(mesh_.indices).subspan(from);
-            if (instance.transform.determinant() < 0) turn_round(added);
+            if (instance.transform.determinant() < 0) reverse_orientation(added);
             if (reading_.materials != nullptr) {
                 const int said = file_.model.meshes[instance.mesh].primitives[primitive.number].material;
                 const std::uint32_t material = material_of(said, has_normals(block));

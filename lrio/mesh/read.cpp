@@ -39,7 +39,7 @@ Attribute float_attribute(std::string name, std::uint8_t components, std::span<c
 
 bool is_underflow(std::string_view word) {
     // A number out of range is far from 1: it is an underflow if its first nonzero digit, after applying the exponent,
-    // is behind the point.
+    // is after the decimal point.
     const std::size_t mark = std::min(word.find_first_of("eE"), word.size());
     const std::string_view digits = word.substr(0, mark);
     long exponent = 0;

@@ -65,7 +65,7 @@ class OffReader {
         LR_TRY(read_counts());
         LR_TRY(read_elements());
         scanner_.skip_space();
-        reading.leave_out(scanner_.remaining(), "byte behind the last face", "bytes behind the last face");
+        reading.leave_out(scanner_.remaining(), "byte after the last face", "bytes after the last face");
         return build(reading);
     }
 
@@ -251,7 +251,7 @@ class OffReader {
     }
 
     Result<Mesh> build(Reading& reading) {
-        reading.leave_out(longer_, "vertex with numbers behind its own", "vertices with numbers behind their own");
+        reading.leave_out(longer_, "vertex with numbers after its own", "vertices with numbers after their own");
         reading.leave_out(face_colors_, "color of a face", "colors of faces");
         polygons_.cut({std::as_bytes(std::span(positions_)).data(), false}, {&indices_}, reading);
         Mesh mesh;

@@ -192,7 +192,7 @@ class PlyReader {
                                       : skip_element(element));
         }
         tell(reading, *vertex);
-        reading.leave_out(source_.bytes_left(), "byte behind the last element", "bytes behind the last element");
+        reading.leave_out(source_.bytes_left(), "byte after the last element", "bytes after the last element");
         const Attribute& position = mesh_.attributes.front();
         polygons_.cut({position.data.data(), position.type == ComponentType::f64}, {&mesh_.indices}, reading);
         return checked(std::move(mesh_));
@@ -417,8 +417,8 @@ class PlyReader {
                                   fmt::format("properties of {}{}", of, names));
             }
         }
-        reading.leave_out(source_.longer_lines(), "line with values behind its element's",
-                          "lines with values behind their elements'");
+        reading.leave_out(source_.longer_lines(), "line with values after its element's",
+                          "lines with values after their elements'");
     }
 
     const PlyHeader& header_;

@@ -86,7 +86,7 @@ Result<Mesh> read_binary(std::string_view bytes, Reading& reading) {
     }
     reading.leave_out(attributes, "color or attribute of a triangle", "colors or attributes of triangles");
     reading.leave_out(bytes.size() - header_bytes - static_cast<std::size_t>(claimed) * triangle_bytes,
-                      "byte behind the last triangle", "bytes behind the last triangle");
+                      "byte after the last triangle", "bytes after the last triangle");
     return merged(corners);
 }
 

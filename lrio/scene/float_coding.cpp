@@ -166,7 +166,7 @@ Result<std::vector<std::byte>> decode_floats(std::span<const std::byte> coded, s
         }
         if (quaternions) row[largest % 4] = rest_rank(row, largest % 4, largest >= 4) + unfold(codes[largest % 4]);
     }
-    if (at != coded.size() || bits != 0) return malformed("floats: bits behind the last code");
+    if (at != coded.size() || bits != 0) return malformed("floats: bits after the last code");
     std::vector<std::byte> out(static_cast<std::size_t>(size));
     for (std::uint32_t& rank : ranks) rank = bits_of(rank);
     if (!ranks.empty()) std::memcpy(out.data(), ranks.data(), out.size());

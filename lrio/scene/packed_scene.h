@@ -13,17 +13,19 @@
 
 namespace lacedring::detail {
 
-/// The buffer views of a document. The extension may code a view: then it stands for other bytes than it has.
+/// The buffer views of a document. If the extension codes a view, its contents are the decoded bytes, not the bytes at
+/// its place in the file.
 class SceneViews {
   public:
     SceneViews(const JsonValue& root, GltfBuffers& buffers)
         : views_(root.list("bufferViews")), buffer_list_(root.list("buffers")), buffers_(&buffers) {}
 
-    /// The view's own range of its buffer, ignoring the extension. Errors: malformed, GltfBuffers'.
+    /// The bytes of the view's own range in its buffer, ignoring the extension. Errors: malformed, those of
+    /// GltfBuffers::open.
     Result<std::span<const std::byte>> raw(std::uint64_t index) const;
-    /// The view's byteLength, which is the size of contents(). Errors: malformed, GltfBuffers'.
+    /// The view's byteLength, which is the size of contents(). Errors: malformed, those of GltfBuffers::open.
     Result<std::uint64_t> size(std::uint64_t index) const;
-    /// A copy of the view's bytes, decoded if they are coded. Errors: malformed, GltfBuffers'.
+    /// A copy of the view's bytes, decoded if they are coded. Errors: malformed, those of GltfBuffers::open.
     Result<std::vector<std::byte>> contents(std::uint64_t index) const;
     /// Is the view in a placeholder buffer and not coded, so that it has no contents?
     bool is_placeholder(std::uint64_t index) const;

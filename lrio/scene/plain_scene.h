@@ -14,10 +14,10 @@ namespace lacedring::detail {
 class PlainScene {
   public:
     /// `bytes` outlives the result. The memory of unpacking has a limit of its own, separate from the mesh's. Errors:
-    /// unpack_scene's.
+    /// those of unpack_scene.
     static Result<PlainScene> open(std::span<const std::byte> bytes, Reading& reading);
 
-    /// Valid as long as this object, which must not move. Errors: split_gltf's.
+    /// Valid as long as this object, which must not move. Errors: those of split_gltf.
     Result<GltfChunks> chunks() const;
 
     std::size_t file_bytes = 0;  ///< bytes of the original file and of other files that unpacking opened

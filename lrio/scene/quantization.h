@@ -46,7 +46,7 @@ class SceneQuantization {
 };
 
 /// Rounds the values by set.options; rounds weights so that their sum stays 1. Raises each attribute's largest error in
-/// `errors`. Errors: encode_vertices'.
+/// `errors`. Errors: those of encode_vertices.
 Result<void> quantize(CodedSet& set, std::map<std::string, double>& errors);
 
 /// Sets lost_before of the first set's options to the largest of all sets.

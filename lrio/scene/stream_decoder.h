@@ -26,7 +26,7 @@ class StreamDecoder {
     using Check = std::function<Result<void>(const LrFileView&)>;
 
     /// `file` begins at a multiple of 8 and outlives the result; `parts` are the part codes. Checks the connectivity,
-    /// not the attributes. Errors: malformed, check's. Untrusted input: safe. Cost: O(T).
+    /// not the attributes. Errors: malformed, those of `check`. Untrusted input: safe. Cost: O(T).
     static Result<StreamDecoder> open(std::span<const std::byte> file, std::span<const std::byte> parts, Said said,
                                       const Check& check = {});
 

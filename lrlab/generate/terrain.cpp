@@ -9,8 +9,8 @@
 namespace lacedring::detail {
 namespace {
 
-/// An ellipse of cells in its bounding box. Its inequality is a term of x plus a term of y. So if two diagonal
-/// neighbors are inside, one of the other two cells is, too: the hole never touches itself at a vertex.
+/// An ellipse of cells that fills its bounding box. Its inequality is f(x) + g(y) <= r. So of four cells around a
+/// vertex, two diagonal ones are never the only ones inside: the hole never touches itself at a vertex.
 struct Hole {
     std::uint64_t x = 0, y = 0, width = 1, height = 1;
 

@@ -58,7 +58,7 @@ class Descriptors {
     void write(VkDescriptorSet set, std::uint32_t number, VkDescriptorType type, const BufferRange& range) {
         write(set, number, type, std::span(&range, 1));
     }
-    /// Writes a storage image in VK_IMAGE_LAYOUT_GENERAL.
+    /// Writes binding `number`: a storage image in VK_IMAGE_LAYOUT_GENERAL.
     void write_image(VkDescriptorSet set, std::uint32_t number, VkImageView view);
 
   private:

@@ -570,7 +570,7 @@ uvec3 lr_packed_own_triangle(LrPackedLayout p, uint triangle) {
             if (e.triangle == i) return lr_packed_oriented(a, x, b, s.reversed != flip);
             at = e.triangle + 1u;
             if (e.w == 0u || e.w >= r.triangles - at) continue;  // no scope
-            if (i - at >= e.w) {                                 // behind the scope
+            if (i - at >= e.w) {                                 // after the scope
                 at += e.w;
                 skip = at;
                 s.a = rest.x;

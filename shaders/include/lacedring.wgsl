@@ -608,7 +608,7 @@ fn lr_packed_own_triangle(p: LrPackedLayout, triangle: u32) -> vec3u {
       let rest = select(vec2u(s.a, x), vec2u(x, s.b), up);
       s = lr_packed_enter(e, up, x, s);
       if (e.w == 0u || e.w >= r.triangles - s.at) { continue; }  // no scope
-      if (i - s.at >= e.w) {                                     // behind the scope
+      if (i - s.at >= e.w) {                                     // after the scope
         s.at += e.w;
         skip = s.at;
         s.a = rest.x;

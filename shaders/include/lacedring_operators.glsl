@@ -165,8 +165,8 @@ uint lr_vertex(LrOpLayout lr, uint c) {
     return role == LR_ROLE_TIP ? lr_slot_tip(lr, w) : lr_slot_end(v, w);
 }
 
-// A fast path of c.o for slots without flags in and beside them: reads two or three words. Returns LR_TABLE_NULL if it
-// does not apply.
+// A fast path of c.o: applies if neither the slot nor the slots next to it have flags. Reads two or three words. Returns
+// LR_TABLE_NULL if it does not apply.
 uint lr_plain_opposite(LrOpLayout lr, uint c) {
     uint v = c / 8u, side = c / 4u & 1u;
     if (v < 2u || v + 1u >= lr.ring) return LR_TABLE_NULL;

@@ -167,8 +167,8 @@ fn lr_vertex(lr: LrOpLayout, c: u32) -> u32 {
   return lr_slot_end(v, w);
 }
 
-// A fast path of c.o for slots without flags in and beside them: reads two or three words. Returns LR_TABLE_NULL if it
-// does not apply.
+// A fast path of c.o: applies if neither the slot nor the slots next to it have flags. Reads two or three words. Returns
+// LR_TABLE_NULL if it does not apply.
 fn lr_plain_opposite(lr: LrOpLayout, c: u32) -> u32 {
   let v = c / 8u;
   let side = (c / 4u) & 1u;

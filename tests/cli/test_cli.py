@@ -153,12 +153,12 @@ class RoundTrip(CliTest):
         for form in ("lean", "packed", "lr"):
             with self.subTest(form):
                 said = self.ok("encode", source, "-o", lr, "--format", form, "--force").err
-                self.assertNotIn("turned round", said)
+                self.assertNotIn("reversed", said)
                 self.ok("decode", lr, "-o", out, "--force")
                 self.same_triangles(source, out)
                 as_it_is = os.path.getsize(lr)
                 said = self.ok("encode", source, "-o", lr, "--format", form, "--orient", "--keep-order", "--force").err
-                self.assertIn(f"{len(range(3, len(faces), 7))} triangles turned round by --orient", said)
+                self.assertIn(f"{len(range(3, len(faces), 7))} triangles reversed by --orient", said)
                 self.ok("decode", lr, "-o", out, "--original-order", "--force")
                 self.assertEqual(self.json("info", out, "--json")["flipped"], 0)
                 self.same_triangles(self.write("straight.ply", write.ply(points, faces)), out)

@@ -20,7 +20,7 @@ struct Block {
     std::uint32_t copies = 0;
 };
 
-/// Reads bits of words from a position; bits behind the end are 0.
+/// Reads bits of words from a position; bits after the end are 0.
 struct Bits {
     std::span<const std::uint32_t> words;
     std::size_t at;

@@ -38,7 +38,7 @@ std::vector<Range> ranges_of(const gpu::Drawable& drawable) {
 }
 
 /// The number of messages so far, without those that report an address within `ranges` as out of bounds. Layer 1.3.239
-/// looks addresses up in a loop that some invocations leave early, and lavapipe 22.3 computes wrong values behind such
+/// looks addresses up in a loop that some invocations leave early, and lavapipe 22.3 computes wrong values after such
 /// loops.
 std::size_t messages(gpu::Context& context, const std::vector<Range>& ranges) {
     std::size_t count = 0;

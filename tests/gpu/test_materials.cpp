@@ -139,7 +139,7 @@ TEST_CASE("textures: bytes that are no image are noted and left out") {
     CHECK(whole.texels.size() == 15 + 2 + 1 + 14 + 3 + 1);
     CHECK(whole.texels[1] == (10U | 254U << 8 | 200U << 16 | 255U << 24));
     CHECK(whole.notes == std::vector<std::string>{"not drawn: image 1: neither PNG nor JPEG"});
-    // A cut image may be refused or decoded in part; a sanitizer reports reads behind its end.
+    // A cut image may be refused or decoded in part; a sanitizer reports reads past its end.
     while (cut.size() > 1) {
         cut.resize(cut.size() - 1);
         (void)gpu::decode_textures(materials);

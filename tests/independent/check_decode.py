@@ -66,7 +66,7 @@ def compare(wanted, got):
     missing, extra = wanted - got, got - wanted
     turned = sum(1 for t in missing if (t >> 64 << 64 | (t & 0xFFFFFFFF) << 32 | t >> 32 & 0xFFFFFFFF) in extra)
     return (f"{sum(missing.values())} triangles missing, {sum(extra.values())} that should not be there, "
-            f"{turned} of them turned round")
+            f"{turned} of them reversed")
 
 
 def in_order(mesh, decoded):

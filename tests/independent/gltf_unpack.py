@@ -65,7 +65,7 @@ def part_codes(data, triangles, parts):
                 expected = part + 1 & MASK
             elif code <= FRONT:
                 if code > len(lately):
-                    raise BadFile("a part behind the list of those used lately")
+                    raise BadFile("a part after the list of those used lately")
                 part = lately.pop(code - 1)
             else:
                 part = code - FRONT - 1

@@ -75,7 +75,7 @@ def sections(data):
         end = offset + size
         out.append((kind, contents, layout, name_length))
     if end != len(data):
-        raise BadFile("something lies behind the last section of the .lr file")
+        raise BadFile("something lies after the last section of the .lr file")
     return out
 
 

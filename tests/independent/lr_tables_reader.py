@@ -103,7 +103,7 @@ class Tables:
             if self.tip[2 * v] != first or v - first < 2:
                 raise BadFile("a closing slot does not name its ring's first vertex")
             if self.kind[2 * first] != TRIANGLE or self.tip[2 * first] != v:
-                raise BadFile("a ring does not begin behind its closing slot")
+                raise BadFile("a ring does not begin after its closing slot")
             self.next[v], self.previous[first] = first, v
             first = v + 1
         if first != self.ring:
@@ -125,7 +125,7 @@ class Tables:
                 if whole and self.kind[third] == TRIANGLE:
                     continue
                 if self.kind[behind] != TRIANGLE or self.flags[behind] & WART or self.tip[behind] != v:
-                    raise BadFile(f"behind slot {s} is not the second copy of a T2")
+                    raise BadFile(f"after slot {s} is not the second copy of a T2")
 
     def end(self, s):
         """The vertex at which a slot's triangle ends."""

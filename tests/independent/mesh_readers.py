@@ -162,7 +162,7 @@ def read_obj(data):
 
 
 def off_vertices(lines, count, width, by_line):
-    """The first three words of each vertex, and the lines behind the vertices."""
+    """The first three words of each vertex, and the lines after the vertices."""
     if by_line:
         if len(lines) < count or any(len(line) < width for line in lines[:count]):
             raise BadFile("a vertex is not on one line")

@@ -182,7 +182,7 @@ class Record:
             gap, code, numbers = read_event(bits, head, triangles)
             at += gap + (i > 0 and self.events[-1][1] in THIRD_VERTEX)
             if at >= triangles:
-                raise BadFile("an event is behind the last triangle of its record")
+                raise BadFile("an event is after the last triangle of its record")
             if code == FLIPS and (i or at):
                 raise BadFile("FLIPS is not the first event, or not at the first triangle")
             self.events.append((at, code, numbers))
@@ -219,11 +219,11 @@ class Walk:
     def open_scope(self, i, code, count, a, b):
         end = i + count + 1
         if self.scopes and end > self.scopes[-1][0]:
-            raise BadFile("a scope ends behind the one around it")
+            raise BadFile("a scope ends after the one around it")
         if end < self.triangles:
             self.scopes.append((end, a & WORD, b & WORD, self.reversed))
         elif code != SPLIT:
-            raise BadFile("FAR or JUMP has a part that ends behind the record")
+            raise BadFile("FAR or JUMP has a part that ends after the record")
 
     def begin(self, a, b, is_reversed):
         self.a, self.b, self.reversed = a & WORD, b & WORD, is_reversed
@@ -251,7 +251,7 @@ class Walk:
                 self.begin(first, first + 2 + numbers[-1], 0 if kind == 1 else was_reversed)
 
     def follow(self):
-        """If the walk is finished, begins the polygon behind the last begun one. Returns whether it was finished."""
+        """If the walk is finished, begins the polygon after the last begun one. Returns whether it was finished."""
         if not self.finished:
             return False
         if self.scopes:
@@ -298,7 +298,7 @@ def wart_triangles(record, turns):
     """The triangles of the record that have warts."""
     candidates = [i for i, turn in enumerate(turns) if i + 1 == len(turns) or turns[i + 1] == turn]
     if record.warts and record.warts[-1] >= len(candidates):
-        raise BadFile("a wart is behind the last candidate")
+        raise BadFile("a wart is after the last candidate")
     warts = [candidates[rank] for rank in record.warts]
     if any(j - i < 2 for i, j in zip(warts, warts[1:])):
         raise BadFile("two warts are next to each other")
@@ -367,7 +367,7 @@ def decode_group(data, turns, width, out):
         some = turns[256 * k:256 * k + 256]
         begin, end = head.places[k:k + 2]
         if not begin <= end <= len(data):
-            raise BadFile("a block's records end before they begin, or behind the end of the packed stream")
+            raise BadFile("a block's records end before they begin, or after the end of the packed stream")
         block = data[begin:end]
         if kind == PLAIN:
             bits = Bits(block)
@@ -411,7 +411,7 @@ def decode_packed(words):
     count = header.triangles
     turn_bits = int.from_bytes(words[4:header.table].tobytes(), "little")
     if turn_bits >> count:
-        raise BadFile("there are turns behind the last triangle")
+        raise BadFile("there are turns after the last triangle")
     turns = [int(bit) for bit in reversed(f"{turn_bits:0{count}b}")] if count else []
     data = words[header.first_group:].tobytes()
     out = []
@@ -424,7 +424,7 @@ def decode_packed(words):
         if any(data[end:at]):
             raise BadFile("a group of the packed stream is not followed by zeros up to a word")
     if len(data) != at:
-        raise BadFile("the packed stream has words behind its last group")
+        raise BadFile("the packed stream has words after its last group")
     if out and max(out) >= header.vertices:
         raise BadFile("a vertex of the packed stream is out of range")
     corners = iter(out)
@@ -467,7 +467,7 @@ class Jump:
         self.finished = self.scope = False
 
     def polygon(self, skipped):
-        """Begins the polygon behind the last begun one, or `skipped` polygons later."""
+        """Begins the polygon after the last begun one, or `skipped` polygons later."""
         a, b, was_reversed = self.begun
         corners = b - a + 1
         self.a, self.b = a + corners * (skipped + 1), b + corners * (skipped + 1)

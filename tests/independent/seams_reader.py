@@ -137,7 +137,7 @@ def read_steps(seams):
             firsts.append(first)
             first += c + 1 - wrap
             before = c
-        require(codes.at == codes.end, "a vertex block has bits behind its codes")
+        require(codes.at == codes.end, "a vertex block has bits after its codes")
     require(first == seams.vertices + seams.vertex_blocks.before[-1], "a vertex block makes other copies than it says")
     require(first == seams.homes, "other homes than the header says")
     return steps, wraps, firsts
@@ -162,7 +162,7 @@ class Walk:
             for w in triangle:
                 if w not in self.states[i]:
                     self.read_other(i, w, parent)
-        require(codes.at == codes.end, "a block has bits behind its codes")
+        require(codes.at == codes.end, "a block has bits after its codes")
 
     def parent(self, i):
         for j in range(i - 1, max(0, i - BACK) - 1, -1):

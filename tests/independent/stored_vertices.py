@@ -199,7 +199,7 @@ def read_stored_vertices(words, vertices, triangles, positions=None, vertex_of=N
     for _ in range(0, vertices, CHUNK):
         part, at = take_part(words, at)
         Coded(part)
-    require(at == len(words), "something lies behind the last part")
+    require(at == len(words), "something lies after the last part")
     texture_map = None
     if header.by_places:
         require(positions is not None, "it is predicted by positions, and these are no integers")

@@ -149,8 +149,8 @@ class Packed(unittest.TestCase):
                 ([0x4B50524C, 1, 4], [0] * 5, "version 1"), ([0x4E4C524C, 1, 4], [0] * 5, "version 2"),
                 ([0x3250524C, (1 << 29) + 1, 4], whole[4:], "too many"),
                 ([0x3250524C, VERTICES, 1 << 31], [0], "too many"),
-                ([0x3250524C, VERTICES, 4], [whole[4] | 16, *whole[5:]], "turns behind"),
-                ([0x3250524C, VERTICES, 4], [*whole[4:], 0], "words behind"),
+                ([0x3250524C, VERTICES, 4], [whole[4] | 16, *whole[5:]], "turns after"),
+                ([0x3250524C, VERTICES, 4], [*whole[4:], 0], "words after"),
                 ([0x3250524C, VERTICES, 4], whole[4:-1], "ends within"), ([0x3250524C, 5, 4], whole[4:], "")):
             with self.assertRaisesRegex(BadFile, why):
                 decode_packed(with_checksum(head, payload))
@@ -205,7 +205,7 @@ class Packed(unittest.TestCase):
             self.refused("size", "1", (50, 90, 0), record(event(0, SPLIT, golomb(size - 3, SPLIT_ORDER))))
             self.refused("size", "1", (50, 90, 0), record(event(0, JUMP, golomb(size - 2, 1) + "0")))
         part = event(0, FAR, "11" + vertex(40) + golomb(1, 2))
-        self.refused("behind the one around", "1111", (0, 9, 0), record(part, event(0, SPLIT, golomb(0, SPLIT_ORDER))))
+        self.refused("after the one around", "1111", (0, 9, 0), record(part, event(0, SPLIT, golomb(0, SPLIT_ORDER))))
         self.refused("fewer triangles", "1100111", (0, 9, 0), record(event(0, JUMP, golomb(1, 1) + "1" + golomb(3, 2))))
 
     def test_jump_and_far(self):
@@ -221,7 +221,7 @@ class Packed(unittest.TestCase):
         both = event(0, FAR, "11" + vertex(40) + golomb(0, 2))
         self.assertEqual(unpacked("100", (0, 9, 0), record(both)), [(0, 9, 40), (0, 40, 39), (40, 9, 8)])
         self.assertEqual(unpacked("000", (0, 9, 0), record(both)), [(0, 9, 40), (40, 9, 8), (0, 40, 39)])
-        self.refused("behind the record", "10", (0, 9, 0), record(both))
+        self.refused("after the record", "10", (0, 9, 0), record(both))
 
     def test_start_beside_turn(self):
         def second(*events, is_reversed=0, turns="00"):
@@ -289,7 +289,7 @@ class Packed(unittest.TestCase):
         with self.assertRaisesRegex(BadFile, "too many bits"):
             unpacked("1010", (0, 5, 0), b"", entry_bits=1)  # for one block
         for bits in range(1, 17):  # the head is padded with ones to a byte
-            with self.subTest(bits=bits), self.assertRaisesRegex(BadFile, "filled up|words behind|followed by"):
+            with self.subTest(bits=bits), self.assertRaisesRegex(BadFile, "filled up|words after|followed by"):
                 unpacked("1010", (0, 5, 0), b"", step=0, offset_bits=bits, change_head=lambda head: head + "0")
 
     def test_doubles(self):

@@ -1,5 +1,6 @@
 // node bundlers.test.mjs: an application that decodes with and without a worker, bundled by esbuild and by Vite with
-// their defaults, decodes alike in headless Chromium. Exit code 77 if npm's registry cannot be reached.
+// their defaults, gives the same results with both in headless Chromium. Exit code 77 if npm's registry cannot be
+// reached.
 import assert from "node:assert/strict";
 import {execFileSync, spawnSync} from "node:child_process";
 import {cpSync, mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync} from "node:fs";

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""webgpu_expected.py FILE...: decodes resident .lr files by the readers of tests/independent and writes FILE.json: each slot's triangle, the
-copies of its corners, the integers and floats of vertex streams, the opposites of LR tables. FILE.hex is a golden stream (tests/golden), of
-which it writes words and slots."""
+"""webgpu_expected.py FILE...: decodes resident .lr files with the readers of tests/independent and writes FILE.json: the triangle of each
+slot, the copies of its corners, the integers and floats of vertex streams, and the opposites of LR tables. If FILE ends in .hex, it is a golden
+stream (tests/golden); FILE.json then has its words and slots."""
 
 import array
 import json

@@ -91,7 +91,7 @@ EncodedLean check_lean(const Mesh& mesh, const RingOptions& ring_options, const 
     REQUIRE(encoded);
     const EncodedLean& stream = *encoded;
 
-    // Buffers of exactly the size: a sanitizer reports reads and writes behind their ends.
+    // Buffers of exactly the stream's size: a sanitizer reports accesses past the end.
     const auto exact = test::exact_copy(std::span<const std::uint32_t>(stream.words));
     const Result<LeanView> view = validate_lean(std::span<const std::uint32_t>(exact.get(), stream.words.size()));
     REQUIRE_MESSAGE(view, view.error().message);

@@ -85,7 +85,7 @@ EncodedPacked check(const Mesh& mesh, const RingOptions& ring, PackedProfile pro
     REQUIRE(encoded);
     const EncodedPacked& stream = encoded->stream;
 
-    // Buffers of exactly the size: a sanitizer reports reads and writes behind their ends.
+    // Buffers of exactly the stream's size: a sanitizer reports accesses past the end.
     const auto exact = test::exact_copy(std::span<const std::uint32_t>(stream.words));
     const Result<PackedView> view = validate_packed(std::span<const std::uint32_t>(exact.get(), stream.words.size()));
     REQUIRE_MESSAGE(view, view.error().message);

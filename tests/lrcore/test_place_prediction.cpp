@@ -150,6 +150,6 @@ TEST_CASE("place prediction: damaged streams are refused or decode the same in C
     const auto use = [&](const Words& damaged, auto&) {
         test::check_damaged_in_c(damaged, sheet.triangles, view.vertices, 100000, sheet.where());
     };
-    // Half of the damage goes to the raw bits of the header, behind the words of symbols.
+    // Half of the damage goes to the raw bits of the header, after the words of symbols.
     test::for_each_damage(all, std::random_device{}(), test::kSanitized ? 100 : 400, use, {all[0] + 1, 8});
 }

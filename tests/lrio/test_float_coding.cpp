@@ -221,7 +221,7 @@ TEST_CASE("coded floats with a wrong header, size or length are refused") {
     CHECK(zeros.tail.empty());
     CodedFloats more = zeros;
     more.tail.push_back(std::byte{1});
-    CHECK_MESSAGE(refused(more, 12), "a byte behind the last bit");
+    CHECK_MESSAGE(refused(more, 12), "a byte after the last bit");
     FloatBytes coded = must_code(bytes, 3);
     const std::uint32_t far = UINT32_MAX;
     std::memcpy(coded.data() + 4, &far, 4);

@@ -143,10 +143,10 @@ TEST_CASE("PLY ascii: elements are read by line, or by word where lines do not m
     };
     const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n";
     const Indices both{0, 1, 2, 2, 1, 0};
-    // A value behind the indices of each face.
+    // A value after the indices of each face.
     CHECK(must_read("a.ply", head(3, 2) + vertices + "3 0 1 2 7\n3 2 1 0 7\n").indices == both);
     CHECK(left_out("a.ply", head(3, 2) + vertices + "3 0 1 2 7\n3 2 1 0 7\n") ==
-          "2 lines with values behind their elements'");
+          "2 lines with values after their elements'");
     CHECK(must_read("b.ply", head(3, 2) + "\n0 0 0 9 9\n\n1 0 0\r\n \n0 1 0 9\n3 0 1 2\n3 2 1 0 255 0 0").indices ==
           both);
     CHECK(must_read("c.ply", head(3, 2) + "0 0 0 1 0 0\n0 1\n0 3 0 1\n2 3 2 1 0\n").indices == both);
@@ -159,7 +159,7 @@ TEST_CASE("PLY ascii: elements are read by line, or by word where lines do not m
     // More lines than elements.
     CHECK(must_read("h.ply", head(3, 2) + vertices + "3 0 1 2\n3 2 1 0\nand more\n").indices == both);
     CHECK(left_out("h.ply", head(3, 2) + vertices + "3 0 1 2\n3 2 1 0\nand more\n") ==
-          "9 bytes behind the last element");
+          "9 bytes after the last element");
     const std::string cr = head(3, 2) + vertices + "3 0 1 2 7\n3 2 1 0 7\n";
     std::string old_mac = cr;
     std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
@@ -248,7 +248,7 @@ TEST_CASE("OBJ: vertices, faces and colors") {
 
 TEST_CASE("OBJ: a backslash at the end continues a line") {
     const Indices both{0, 1, 2, 0, 2, 3};
-    // A blank behind the backslash.
+    // A blank after the backslash.
     CHECK(must_read("a.obj", four_obj + "f 1 2 3 \\ \n4\n").indices == both);
     for (const char* joint : {"\\\n", " \\\n", "\\ \t \n", "\\\r\n", " \\ \r\n \t", "\\\r", " \\\n\\\n \\ \n"}) {
         CAPTURE(joint);
@@ -499,7 +499,7 @@ TEST_CASE("OFF: attributes of vertices") {
 }
 
 TEST_CASE("OFF: numbers may be on any lines") {
-    SUBCASE("counts behind the word without a blank, on several lines, and without edges") {
+    SUBCASE("counts after the word without a blank, on several lines, and without edges") {
         for (const char* head :
              {"OFF3 1 0\n", "OFF 3 1 0\n", "OFF3 1\n", "OFF\n3 1\n", "OFF3\n1\n0\n", "OFF\n3\n1\n0\n", "3\n1\n0\n",
               "OFF# c\n3 1#c\n", "OFF\n\n3 #c\n\n1\n#c\n0 #c\n\n", "\n#c\nOFF3 1 0 #\n", "3 1 0\r\n"}) {
@@ -541,9 +541,9 @@ TEST_CASE("OFF: the report names what is left out, and binary and 4D files are r
         CHECK(left_out("l.off", vertices + "4 0 1 2 3\n3 0 1 2\n").empty());
         CHECK(left_out("l.off", vertices + "4 0 1 2 3 9\n3 0 1 2 1 2 3\n") == "2 colors of faces");
         CHECK(left_out("l.off", vertices + "4 0 1 2 3\n2 0 1\n") == "1 face with fewer than 3 corners");
-        CHECK(left_out("l.off", vertices + "4 0 1 2 3\n3 0 1 2\n# end\n7") == "1 byte behind the last face");
+        CHECK(left_out("l.off", vertices + "4 0 1 2 3\n3 0 1 2\n# end\n7") == "1 byte after the last face");
         CHECK(left_out("l.off", "OFF 3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n") ==
-              "3 vertices with numbers behind their own");
+              "3 vertices with numbers after their own");
     }
     SUBCASE("binary and 4D files are refused") {
         CHECK(read_text("g.off", "OFF BINARY\n").error().code == ErrorCode::unsupported);
@@ -562,7 +562,7 @@ TEST_CASE("STL: corners at one position are one vertex") {
         CHECK(attributes_of(mesh) == "POSITION:f32x3");
     }
     CHECK(must_read("b.stl", binary_stl(corners) + "trailing").indices == indices);
-    CHECK(left_out("b.stl", binary_stl(corners) + "trailing") == "8 bytes behind the last triangle");
+    CHECK(left_out("b.stl", binary_stl(corners) + "trailing") == "8 bytes after the last triangle");
     CHECK(must_read("no-extension", binary_stl(corners)).indices == indices);
 
     std::string text;

@@ -194,7 +194,7 @@ TEST_CASE("a damaged zlib stream of part codes is refused") {
     test::for_each_cut(good, [&](auto cut) { CHECK_FALSE(detail::decode_part_codes(cut, parts.size(), 9)); });
     test::for_each_flip(good, [&](const std::vector<std::byte>& bad, std::size_t) {
         const auto read = detail::decode_part_codes(bad, parts.size(), 9);
-        // Bits behind the last code of deflate have no effect.
+        // Bits after the last code of deflate have no effect.
         CHECK((!read || *read == parts));
     });
     std::vector<std::byte> longer = good;

@@ -1,6 +1,6 @@
 #pragma once
 // Makes damaged copies of valid words or bytes. A failing check prints the damage. Cut copies have exactly their size
-// in memory, so that a sanitizer reports reads behind the end.
+// in memory, so that a sanitizer reports reads past the end.
 
 #include <doctest/doctest.h>
 

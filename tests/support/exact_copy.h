@@ -1,5 +1,5 @@
 #pragma once
-// A copy in memory of exactly its size, so that a sanitizer reports reads behind the end.
+// A copy in memory of exactly its size, so that a sanitizer reports reads past the end.
 
 #include <algorithm>
 #include <memory>

@@ -165,7 +165,7 @@ TEST_CASE("words of another stage and damaged SPIR-V are refused") {
     CHECK_FALSE(gpu::check_interface(vertex, fragment.words));
     CHECK_FALSE(gpu::check_interface(vertex, {}));
     std::mt19937 random(3);
-    // Random words: a sanitizer reports reads behind the end.
+    // Random words: a sanitizer reports reads past the end.
     for (int i = 0; i < 2000; ++i) {
         std::vector<std::uint32_t> words(vertex.words.begin(), vertex.words.begin() + random() % vertex.words.size());
         for (int k = 0; k < 3 && !words.empty(); ++k) words[random() % words.size()] ^= 1U << (random() % 32);

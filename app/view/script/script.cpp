@@ -298,8 +298,8 @@ Result<bool> Script::wait(const Words& words, const Stage& stage) {
     if (what == "error") return !facts.error.empty() && ++seen_ > 3;
     if (what == "shaders") {
         if (stage.viewer.shaders() == nullptr) return wrong("no shader sources to wait for");
-        if (waited_ == 0) look_ = stage.viewer.shaders()->next_look();
-        return facts.shaders.looks >= look_;
+        if (waited_ == 0) check_ = stage.viewer.shaders()->next_check();
+        return facts.shaders.checks >= check_;
     }
     return misused();
 }

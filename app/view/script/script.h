@@ -78,7 +78,7 @@ class Script {
     int seen_ = 0;
     /// Pictures of a turntable are being written.
     bool turning_ = false;
-    std::uint64_t look_ = 0;  ///< the awaited check of the shaders' files
+    std::uint64_t check_ = 0;  ///< the awaited check of the shaders' files
     std::chrono::steady_clock::time_point waiting_since_{};
 };
 

@@ -81,7 +81,7 @@ struct Loader::Shared {
     std::function<void()> wake;  // empty after the loader's destructor
     // The current request; null: none, or canceled.
     std::shared_ptr<Job> newest;
-    News news;
+    Update update;
     Progress progress;
     std::size_t readers = 0, computing = 0;  // numbers of threads
     std::uint64_t listing = 0;               // number of the newest call of list()
@@ -158,7 +158,7 @@ void Loader::request(Request request) {
     if (room && job->reads()) --shared_->readers;
     shared_->newest.reset();
     shared_->progress = {};
-    shared_->news.error = job->path() + ": " + started.error().message;
+    shared_->update.error = job->path() + ": " + started.error().message;
 }
 
 void Loader::open(const Input& input, const RingSettings& settings) {
@@ -195,13 +195,13 @@ void Loader::list(const std::string& path) {
         const std::lock_guard lock(shared->mutex);
         --shared->readers;
         if (number != shared->listing || !files) return;
-        shared->news.files = std::move(files);
+        shared->update.files = std::move(files);
         shared->say_news();
     });
     if (started) return;
     const std::lock_guard lock(shared_->mutex);
     --shared_->readers;
-    shared_->news.error = path + ": cannot list its folder: " + started.error().message;
+    shared_->update.error = path + ": cannot list its folder: " + started.error().message;
 }
 
 Loader::Progress Loader::progress() const {
@@ -209,15 +209,15 @@ Loader::Progress Loader::progress() const {
     return shared_->progress;
 }
 
-bool Loader::has_news() const {
+bool Loader::has_update() const {
     const std::lock_guard lock(shared_->mutex);
-    const News& news = shared_->news;
-    return news.document || news.tables || news.formats || news.files || news.error;
+    const Update& update = shared_->update;
+    return update.document || update.tables || update.formats || update.files || update.error;
 }
 
-Loader::News Loader::take() {
+Loader::Update Loader::take() {
     const std::lock_guard lock(shared_->mutex);
-    return std::exchange(shared_->news, {});
+    return std::exchange(shared_->update, {});
 }
 
 void Loader::Job::say(const std::string& what, double share, bool background) {
@@ -231,14 +231,14 @@ void Loader::Job::publish(const Document& document) {
     copy->asked = asked_;
     copy->seconds = since_asked();
     if (stop_) return;
-    shared_->news.document = std::move(copy);
+    shared_->update.document = std::move(copy);
     shared_->say_news();
 }
 
 void Loader::Job::fail(const std::string& why) {
     const std::lock_guard lock(shared_->mutex);
     if (stop_) return;
-    shared_->news.error = path() + ": " + why;
+    shared_->update.error = path() + ": " + why;
     shared_->say_news();
 }
 
@@ -401,7 +401,7 @@ void Loader::Job::measure_formats(const Document& document) {
     const std::lock_guard lock(shared_->mutex);
     if (stop_) return;
     shared_->measured = document.mesh;
-    shared_->news.formats = std::make_shared<const app::FormatSet>(std::move(*formats));
+    shared_->update.formats = std::make_shared<const app::FormatSet>(std::move(*formats));
     shared_->say_news();
 }
 
@@ -437,7 +437,7 @@ void Loader::Job::work() {
             tables->crease = crease_angle(document);
             const std::lock_guard lock(shared_->mutex);
             if (stop_) return;
-            shared_->news.tables = std::make_shared<const Tables>(std::move(*tables));
+            shared_->update.tables = std::make_shared<const Tables>(std::move(*tables));
             shared_->say_news();
         }
     }

@@ -15,7 +15,7 @@ namespace lacedring::view {
 
 class Loader {
   public:
-    /// `wake` is called by other threads when there is news, but never after the destructor.
+    /// Other threads call `wake` when a result is ready, but never after the destructor.
     Loader(Threads& threads, std::function<void()> wake);
     /// Stops the current request, without waiting for its thread.
     ~Loader();
@@ -40,15 +40,15 @@ class Loader {
     Progress progress() const;
 
     /// Results that arrived since the last take().
-    struct News {
+    struct Update {
         std::shared_ptr<const Document> document;
         std::shared_ptr<const Tables> tables;
         std::shared_ptr<const app::FormatSet> formats;
         std::optional<std::vector<std::string>> files;  ///< meshes in the folder listed last
         std::optional<std::string> error;               ///< one line, with the file's name
     };
-    News take();
-    bool has_news() const;
+    Update take();
+    bool has_update() const;
 
   private:
     struct Request {

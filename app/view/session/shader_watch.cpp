@@ -110,7 +110,7 @@ struct ShaderWatch::Shared {
     const fs::path folder, built_from;
     std::mutex mutex;
     std::condition_variable wake;
-    News news;
+    Update update;
     std::uint64_t begun = 0;  // checks of the files begun
     bool force = false, quit = false;
 
@@ -144,19 +144,19 @@ void ShaderWatch::force() {
     shared_->wake.notify_all();
 }
 
-ShaderWatch::News ShaderWatch::take() {
+ShaderWatch::Update ShaderWatch::take() {
     const std::lock_guard lock(shared_->mutex);
-    News out = shared_->news;
-    shared_->news.fresh = shared_->news.changed = false;
+    Update out = shared_->update;
+    shared_->update.fresh = shared_->update.changed = false;
     return out;
 }
 
-bool ShaderWatch::has_news() const {
+bool ShaderWatch::has_update() const {
     const std::lock_guard lock(shared_->mutex);
-    return shared_->news.fresh;
+    return shared_->update.fresh;
 }
 
-std::uint64_t ShaderWatch::next_look() const {
+std::uint64_t ShaderWatch::next_check() const {
     const std::lock_guard lock(shared_->mutex);
     return shared_->begun + 1;
 }
@@ -166,8 +166,8 @@ void ShaderWatch::Shared::run() {
         watch();
     } catch (const std::bad_alloc&) {
         const std::lock_guard lock(mutex);
-        news.fresh = true;
-        news.error = "not enough memory to compile shaders: watching them has stopped";
+        update.fresh = true;
+        update.error = "not enough memory to compile shaders: watching them has stopped";
     }
 }
 
@@ -204,21 +204,21 @@ void ShaderWatch::Shared::watch() {
             if (!compiler) compiler.emplace(folder, built_from);
             compile(*compiler, *shader);
             const std::lock_guard lock(mutex);
-            ++news.compiled;
+            ++update.compiled;
             if (quit) return;
         }
         const std::lock_guard lock(mutex);
-        ++news.looks;
+        ++update.checks;
         if (changed.empty()) continue;
-        news.fresh = true;
-        news.error = told(shaders);
-        if (!news.error.empty()) continue;
+        update.fresh = true;
+        update.error = told(shaders);
+        if (!update.error.empty()) continue;
         ShaderSet::Replaced replaced;
         for (const Known& shader : shaders) {
             if (shader.words) replaced.emplace(shader.built_in->name, shader.words);
         }
-        if (forced || !same(replaced, news.replaced)) news.changed = true;
-        news.replaced = std::move(replaced);
+        if (forced || !same(replaced, update.replaced)) update.changed = true;
+        update.replaced = std::move(replaced);
     }
 }
 

@@ -26,8 +26,8 @@ class ShaderWatch {
     /// Compiles all shaders, changed or not, and reports them even if the result is the same as before.
     void force();
 
-    struct News {
-        /// There is news since the last call; else only `looks` is current.
+    struct Update {
+        /// Something changed since the last call; if false, only `checks` is current.
         bool fresh = false;
         /// Lines of "shaders/draw/surface.frag:42: why". With an error, `replaced` is as before.
         std::string error;
@@ -35,12 +35,12 @@ class ShaderWatch {
         /// All shaders that differ from the built-in ones.
         gpu::ShaderSet::Replaced replaced;
         std::uint32_t compiled = 0;  ///< shaders compiled so far
-        std::uint64_t looks = 0;     ///< number of completed checks of the files
+        std::uint64_t checks = 0;    ///< number of completed checks of the files
     };
-    News take();
-    bool has_news() const;
+    Update take();
+    bool has_update() const;
     /// Number of the first check that will see all files written before this call.
-    std::uint64_t next_look() const;
+    std::uint64_t next_check() const;
 
   private:
     struct Shared;

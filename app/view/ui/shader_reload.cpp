@@ -31,21 +31,21 @@ void ShaderReload::force(Facts& facts) {
 
 bool ShaderReload::update(gpu::Context& context, Scene& scene, Facts& facts) {
     if (!watch_) return false;
-    const ShaderWatch::News news = watch_->take();
+    const ShaderWatch::Update update = watch_->take();
     ShaderFacts& shaders = facts.shaders;
-    shaders.looks = news.looks;
-    if (!news.fresh) return false;
-    shaders.compiled = news.compiled;
-    shaders.error = news.error;
-    if (!news.changed) return true;
-    gpu::ShaderSet::Replaced before = context.shaders().exchange(news.replaced);
+    shaders.checks = update.checks;
+    if (!update.fresh) return false;
+    shaders.compiled = update.compiled;
+    shaders.error = update.error;
+    if (!update.changed) return true;
+    gpu::ShaderSet::Replaced before = context.shaders().exchange(update.replaced);
     if (const Result<void> made = scene.reload(); !made) {
         context.shaders().exchange(std::move(before));
         shaders.error = "the device refuses the shaders: " + made.error().message;
         return true;
     }
     ++shaders.reloads;
-    shaders.replaced = static_cast<std::uint32_t>(news.replaced.size());
+    shaders.replaced = static_cast<std::uint32_t>(update.replaced.size());
     facts.tell("shaders reloaded");
     return true;
 }

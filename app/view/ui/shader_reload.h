@@ -16,10 +16,10 @@ class ShaderReload {
     void start(Threads& threads, const std::filesystem::path& folder, Facts& facts);
     /// Compiles all shaders again, changed or not.
     void force(Facts& facts);
-    /// Uses newly compiled shaders. Returns whether there were news. facts.shaders.reloads grows when the scene's
-    /// pipelines were recreated.
+    /// Uses newly compiled shaders. Returns whether the watch had an update. facts.shaders.reloads grows if the
+    /// scene's pipelines were recreated.
     bool update(gpu::Context& context, Scene& scene, Facts& facts);
-    bool has_news() const { return watch_ && watch_->has_news(); }
+    bool has_update() const { return watch_ && watch_->has_update(); }
     /// Null: no folder is watched.
     const ShaderWatch* watch() const { return watch_.get(); }
 

@@ -65,7 +65,7 @@ struct ShaderFacts {
     std::uint32_t reloads = 0;
     /// Shaders in use that differ from the built-in ones.
     std::uint32_t replaced = 0;
-    std::uint64_t looks = 0;  ///< completed checks of their files
+    std::uint64_t checks = 0;  ///< completed checks of their files
 };
 
 /// Part of the window, in pixels.

@@ -301,35 +301,35 @@ Result<void> Viewer::on(const action::SaveTurn& save) {
     return turn_.start(save.folder.empty() ? free_name("turntable", "") : save.folder, save.pictures, orbit_);
 }
 
-// News from threads.
+// Update from threads.
 
 void Viewer::take_news() {
     Facts& facts = state_.facts;
-    Loader::News news = loader_.take();
+    Loader::Update update = loader_.take();
     facts.progress = loader_.progress();
-    if (news.document) news_.document = std::move(news.document);
-    if (news.tables) news_.tables = std::move(news.tables);
-    if (news.formats) news_.formats = std::move(news.formats);
-    if (news.files) {
-        facts.files = std::move(*news.files);
+    if (update.document) update_.document = std::move(update.document);
+    if (update.tables) update_.tables = std::move(update.tables);
+    if (update.formats) update_.formats = std::move(update.formats);
+    if (update.files) {
+        facts.files = std::move(*update.files);
         quiet_frames_ = 0;
     }
-    if (news_.document && visible()) take_document();
-    if (news_.document) {
+    if (update_.document && visible()) take_document();
+    if (update_.document) {
         // Hold tables and formats back: they belong to the document that is not shown yet.
         if (!facts.progress.busy || facts.progress.background) {
             facts.progress = {.busy = true, .background = false, .what = "uploading", .share = 1};
         }
     } else {
-        if (news_.tables && facts.document && news_.tables->mesh == facts.document->mesh) {
-            facts.tables = std::move(news_.tables);
+        if (update_.tables && facts.document && update_.tables->mesh == facts.document->mesh) {
+            facts.tables = std::move(update_.tables);
         }
-        if (news_.formats) facts.formats = std::move(news_.formats);
-        news_ = {};
+        if (update_.formats) facts.formats = std::move(update_.formats);
+        update_ = {};
     }
     if (turn_.running()) facts.progress = {true, false, turn_.text(), turn_.share()};
-    if (news.error) {
-        facts.error = *news.error;
+    if (update.error) {
+        facts.error = *update.error;
         if (!queue_.empty()) open_next();
         quiet_frames_ = 0;
     }
@@ -342,13 +342,13 @@ void Viewer::take_news() {
 void Viewer::take_document() {
     Facts& facts = state_.facts;
     Choices& choices = state_.choices;
-    const bool other = !facts.document || facts.document->mesh != news_.document->mesh;
-    const std::shared_ptr<const OwningModel>& model = news_.document->model;
+    const bool other = !facts.document || facts.document->mesh != update_.document->mesh;
+    const std::shared_ptr<const OwningModel>& model = update_.document->model;
     Shown picture = shown(Quality::rough, *model);
     if (other && !choices.view_chosen) picture.view = model->has_materials ? gpu::View::material : gpu::View::smooth;
     const Result<bool> there = scene_.adopt(model, picture);
     if (there && !*there) return;
-    const std::shared_ptr<const Document> document = std::exchange(news_.document, nullptr);
+    const std::shared_ptr<const Document> document = std::exchange(update_.document, nullptr);
     if (!there) {
         facts.error = document->path + ": " + there.error().message;
         return;
@@ -475,7 +475,7 @@ Result<bool> Viewer::prepare(const Shown& picture) {
     chosen.source = drawn.source;
     chosen.path = drawn.path;
     chosen.mode = drawn.mode;
-    if (chosen == before) return there;  // the last picture had the same choices
+    if (chosen == before) return there;  // these choices were drawn before: there is nothing to go back to
     return false;
 }
 

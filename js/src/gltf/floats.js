@@ -97,6 +97,6 @@ export async function decodeFloats(coded, size) {
     line[0] = restOf(floats.subarray(at, at + 4), rest & 3, rest > 3);
     bits[at + (rest & 3)] = bitsOf((rankOf(lineBits[0]) + unfold(row[rest & 3])) | 0);
   }
-  if (!codes.isAtEnd()) refuse("floats: bits behind the last code");
+  if (!codes.isAtEnd()) refuse("floats: bits after the last code");
   return new Uint8Array(bits.buffer);
 }

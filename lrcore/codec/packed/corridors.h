@@ -17,7 +17,7 @@ struct CorridorStep {
         kRight = 1,
         kEnterA = 2,  ///< the triangle across (a, x) can be visited from here
         kEnterB = 4,  ///< the triangle across (x, b) can be visited from here
-        /// If both can be visited: (a, x) and all behind it first, then (x, b); else the reverse.
+        /// If both can be visited: (a, x) and everything reached through it first, then (x, b); else the reverse.
         kFirstA = 8,
     };
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kCache = 32;
 // Minimum triangles of a piece: one of its chains and the next piece's other chain fit in the cache.
 constexpr std::size_t kPiece = 31;
-// If at most this many triangles are left of a corridor or behind a T0, they join the piece.
+// If at most this many triangles are left of a corridor or past a T0, they join the piece.
 constexpr std::uint32_t kWhole = 8;
 constexpr double kStart = 12;  // cost of starting a piece, in vertices
 
@@ -72,8 +72,8 @@ class PieceWalker {
         }
     }
 
-    /// Moves pieces of very few triangles behind a piece that they touch. In sequence they would need too many events
-    /// per block, and each would load its vertices again.
+    /// Moves pieces of very few triangles to directly after a piece that they touch. In sequence they would need too
+    /// many events per block, and each would load its vertices again.
     void spread_scraps() {
         constexpr std::uint32_t kScrap = 8;
         const auto pieces = static_cast<std::uint32_t>(begins_.size());

@@ -28,7 +28,8 @@ std::vector<std::uint8_t> find_sides(Triangles triangles) {
     return out;
 }
 
-/// Chooses the home copies of vertices: the copies of the fan on the left, in its order.
+/// Chooses the home copies of each vertex: those of its corners in triangles left of the ring, in the order of its fan.
+/// The copy at the ring edge (v - 1, v) is first, the copy at (v, v + 1) last.
 class HomeFinder {
   public:
     HomeFinder(Triangles triangles, std::span<const std::uint32_t> copies, std::span<const std::uint8_t> sides)

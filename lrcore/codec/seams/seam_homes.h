@@ -44,8 +44,9 @@ struct SeamHomes {
     }
 };
 
-/// Chooses the home copies: the copies of the fan on the vertex's left, in its order. The copy of each corner is below
-/// `copy_count` and belongs to one vertex. Cost: O(T), plus O(n log n) for a vertex with n corners and several copies.
+/// Chooses the home copies of each vertex: those of its corners in triangles left of the ring, in the order of its fan.
+/// The copy of each corner is below `copy_count` and belongs to one vertex. Cost: O(T), plus O(n log n) for a vertex
+/// with n corners and several copies.
 SeamHomes find_homes(std::span<const std::uint32_t> triangles, std::uint32_t vertices,
                      std::span<const std::uint32_t> copies, std::uint32_t copy_count, const VertexCorners& corners);
 

@@ -41,8 +41,9 @@ class PlaneFit {
         }
     }
 
-    /// The axis whose component a plane is likely to reduce most, and twice the logarithm of the reduction.
+    /// The component whose residuals a plane is likely to reduce most. Set by find_axis().
     std::uint32_t axis() const { return axis_; }
+    /// Twice the base-2 logarithm of the factor by which a plane reduces that component's sum of squared residuals.
     std::uint32_t gain() const { return gain_; }
 
     void find_axis() {
@@ -68,7 +69,7 @@ class PlaneFit {
         gain_ = ratio(best, rest);
     }
 
-    /// Twice the logarithm of the factor by which a plane reduces its axis' component.
+    /// 2 log2 of the factor by which a plane of these slopes reduces the sum of squared residuals of component `axis`.
     std::uint32_t gain_of(std::uint32_t axis, const std::array<std::int8_t, 2>& slope) const {
         const std::uint32_t u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
         const std::int64_t a = slope[0], b = slope[1];
@@ -92,7 +93,7 @@ class PlaneFit {
     }
 
   private:
-    /// Twice the logarithm of a / b as an integer; 0 if a <= b.
+    /// 2 log2(a / b), approximately, as an integer; 0 if a <= b.
     static std::uint32_t ratio(std::int64_t a, std::int64_t b) {
         const std::uint32_t la = logarithm(a), lb = logarithm(b);
         return la > lb ? la - lb : 0;

@@ -22,7 +22,7 @@ struct Parallelogram {
     bool operator==(const Parallelogram&) const = default;
 };
 
-/// Both are equal for a vertex with a single parallelogram.
+/// The two parallelograms of a predicted vertex; equal if it has only one.
 using Parallelograms = std::array<Parallelogram, 2>;
 
 constexpr std::uint32_t kNone = UINT32_MAX;

@@ -89,7 +89,7 @@ std::string check_rings(const View& view) {
         first = v + 1;
     }
     if (first != view.ring_vertices) return detail::message("the ring from vertex ", first, " does not close");
-    // After the first copy of a T2, or a T0w in its place, comes the second copy.
+    // The first copy of a T2, or the T0w that replaces it, must be followed by the second copy.
     for (std::uint32_t v = 0; v < view.ring_vertices; ++v) {
         for (std::uint32_t side = 0; side < 2; ++side) {
             const std::uint32_t kind = view.kind(v, side);

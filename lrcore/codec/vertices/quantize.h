@@ -20,7 +20,7 @@ struct VertexIntegers {
     double largest_error = 0;
 };
 
-/// Cost: O(V). Errors: encode_vertices'.
+/// Cost: O(V). Errors: those of encode_vertices.
 Result<VertexIntegers> to_integers(const VertexValues& values, const VertexOptions& options);
 
 /// Converts floats to decimals, with the number of digits that is estimated to give the smallest stream; none if too

@@ -164,7 +164,7 @@ Result<EncodedPacked> encode_packed(const CornerTable& table, const Rings& rings
                                     PackedProfile profile = PackedProfile::small);
 
 /// The smaller of two streams: from the rings of expand_rings, and from the same rings optimized. Rings are made
-/// without doubled triangles; the stream stores those as doubles. Errors: encode_packed's.
+/// without doubled triangles; the stream stores those as doubles. Errors: those of encode_packed.
 struct PackedChoice {
     EncodedPacked stream;
     std::uint32_t passes = 0;  ///< optimizer passes; 0 if its rings were no better

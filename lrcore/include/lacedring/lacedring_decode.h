@@ -406,7 +406,7 @@ void lacedring_lean_triangles_u16(const struct lacedring_lean* lean, uint16_t* i
 
 /* Packed streams: docs/packed-format.md. */
 
-/* Flag. In header word 1: the stream has doubles. In a run: its doubles are turned round. */
+/* Flag. In header word 1: the stream has doubles. In a run: its doubles have the opposite orientation. */
 #define LACEDRING_DOUBLES_ 0x80000000u
 #define LACEDRING_PACKED_GROUP_ 16u
 #define LACEDRING_PACKED_MAX_RECORD_ 160u
@@ -1225,7 +1225,8 @@ LACEDRING_WIDE_ LACEDRING_HOT_ lacedring_eight_ lacedring_write_eights_(const ui
         t2 = (lacedring_eight_)(((one * 0 + *warts++) & t2_bits) == t2_bits);
         b = a + span;
         bad |= t0 & (lacedring_eight_)(span <= three);
-        /* 2 at a T0; 0 at a T2, whose x lies between its a and b; else 1. */
+        /* Distance of x from a (turn 1) or from b (turn 0): 2 at a wart's T0; 0 at a wart's T2, whose entry edge is
+           (x - 1, x + 1); else 1. */
         step = one - t0 + t2;
         x = LACEDRING_BLEND_(b - step, a + step, up);
         a = LACEDRING_BLEND_(a, x - one, t2);
@@ -1304,7 +1305,7 @@ LACEDRING_HOT_ void lacedring_begin_piece_(struct lacedring_decoder_* d) {
 #endif
 }
 
-/* Advances by turns to triangle `target`, and closes the scopes that end up to there. Returns 0 if the record is
+/* Advances by turns to triangle `target`, and closes the scopes that end at or before it. Returns 0 if the record is
    invalid. */
 LACEDRING_HOT_ int lacedring_advance_(struct lacedring_decoder_* d, uint32_t target, int wide) {
     (void)wide;
@@ -1596,7 +1597,7 @@ LACEDRING_HOT_ int lacedring_expand_(const struct lacedring_packed* p, const str
 #endif
             ++d.i;
             d.ups += turn;
-            if (count >= d.triangles - d.i) { /* the rest lies after the record's end */
+            if (count >= d.triangles - d.i) { /* edge `rest` is not entered in this record */
                 if (e.code != LACEDRING_SPLIT_ && count > 0) return 0;
                 if (count > 0 && lacedring_inside_(&d)) return 0;
             } else if (count > 0) {
@@ -1825,7 +1826,7 @@ enum lacedring_status lacedring_packed_check(const struct lacedring_packed* p, u
     return lacedring_check_packed_(p, NULL, where);
 }
 
-/* Writes triangle `of`, turned round if `turned` is nonzero. */
+/* Writes triangle `of`, with the opposite orientation if `turned` is nonzero. */
 static void lacedring_double_(const uint32_t* of, uint32_t turned, uint32_t* out) {
     const uint32_t b = of[1], c = of[2];
     out[0] = of[0];

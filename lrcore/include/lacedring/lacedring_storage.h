@@ -348,7 +348,7 @@ struct lacedring_steps_ {
     uint32_t* open;    /* open edges, a stack; two words each; UINT32_MAX: removed */
     size_t open_count; /* in words */
     uint32_t vertices, bits;
-    /* The edge of the next step, if the last step goes on. */
+    /* The edge of the next step, if the next step continues the last one. */
     uint32_t a, b;
     /* goes_on: the next step continues the last one. entered: the last step entered an edge. is_fork: the next step's
        first bit was read already, and is 0. */

@@ -283,10 +283,10 @@ static void lacedring_seam_fan_copies_(struct lacedring_seam_copies_* w, uint32_
     }
 }
 
-/* Decodes whether the neighbors of a decoded vertex have several copies. Those that have go on the stack, those across
-   seams on top. */
+/* Decodes whether each neighbor of a decoded vertex has several copies. Pushes the neighbors with several copies on the
+   stack; neighbors across seams end up on top. */
 static void lacedring_seam_neighbors_(struct lacedring_seam_copies_* w, uint32_t sides) {
-    /* Per edge, reusing arrays: each entry overwrites that of a side that was handled already. */
+    /* One entry per edge, in reused arrays: each entry overwrites a side that was handled already. */
     uint32_t *vertex = w->far, *kind = w->mate;
     uint32_t s, edges = 0, seam;
     for (s = 0; s < sides; ++s) {
