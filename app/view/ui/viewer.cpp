@@ -301,7 +301,7 @@ Result<void> Viewer::on(const action::SaveTurn& save) {
     return turn_.start(save.folder.empty() ? free_name("turntable", "") : save.folder, save.pictures, orbit_);
 }
 
-// Update from threads.
+// Updates from threads.
 
 void Viewer::take_news() {
     Facts& facts = state_.facts;

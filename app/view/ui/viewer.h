@@ -67,7 +67,7 @@ class Viewer {
     /// Animating: the next frame differs without input.
     bool moving() const { return quiet_frames_ <= 3 || animated(); }
     /// Nothing moves or is awaited: the next frame would be the same.
-    bool idle() const { return !moving() && !busy() && !state_.facts.progress.busy && !update(); }
+    bool idle() const { return !moving() && !busy() && !state_.facts.progress.busy && !has_update(); }
     /// Nothing is pending: only input changes the picture.
     bool settled() const;
     /// A whole turn is being saved.
@@ -110,7 +110,7 @@ class Viewer {
     Result<void> on(const action::SavePicture& save);
     Result<void> on(const action::SaveTurn& save);
 
-    bool update() const { return loader_.has_update() || update_.document || shaders_.has_update(); }
+    bool has_update() const { return loader_.has_update() || update_.document || shaders_.has_update(); }
     bool animated() const;
     bool busy() const;
     /// Returns whether another ring or weld is chosen than was asked for.
