@@ -145,6 +145,8 @@ class Steps:
 
     def edge(self):
         """The edge of a step that does not continue from the preceding one."""
+        while self.open and self.open[-1] is None:  # empty places count only under open edges
+            self.open.pop()
         if not self.open or self.read("A" if self.entered else "B"):
             return self.tree()
         at = len(self.open) - 1
@@ -157,7 +159,7 @@ class Steps:
         require(self.open[at] is not None, "an edge is entered twice")
         a, b, self.side = self.open[at]
         self.open[at] = None
-        while self.open and self.open[-1] is None:
+        if at == len(self.open) - 1:
             self.open.pop()
         return a, b
 

@@ -191,12 +191,11 @@ class Homes:
         self.homes = self.homes or [copies[c] for c in corners[:1]] or [0]
         if len(self.homes) > 1:
             first, last = ([copies[c] for c in on_left if w in slots[c // 3]][:1] for w in (v - 1, v + 1))
+            # They are homes even if there are too many others.
             if last and last != first:
-                self.homes.remove(last[0])
-                self.homes += last
+                self.homes = [copy for copy in self.homes if copy != last[0]] + last
             if first:
-                self.homes.remove(first[0])
-                self.homes = first + self.homes
+                self.homes = first + [copy for copy in self.homes if copy != first[0]]
         changed = sum(copies[a] != copies[b] for a, b in zip(fan, fan[1:]))
         self.wraps = len(self.homes) > 1 and changed == len(self.homes) and copies[fan[0]] == copies[fan[-1]]
 

@@ -87,6 +87,12 @@ class TestStorageReader(unittest.TestCase):
         self.assertIsNotNone(words)
         self.assertGreater(words[2] & 0x7FFFFFFF, 0, "no doubles")
 
+    def test_empty_places(self):
+        """An empty place on the stack of open edges counts until a step looks for an edge below it. The same words are in
+        tests/lrcore/test_packed_storage.cpp; no encoder writes them."""
+        words = array.array("I", (16, 5, 0, 6, 0xC1EE17F8, 0, 0x984031FC, 0, 0xD6D3F968, 0x86A11B54, 0x2C940))
+        self.assertEqual(read_stored_packed(words), (16, [(0, 10, 5), (0, 5, 2), (2, 5, 3), (0, 2, 11), (5, 10, 7)]))
+
     def test_damaged(self):
         generator = random.Random(SEED)
         refused = tried = 0

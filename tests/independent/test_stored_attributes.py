@@ -3,6 +3,7 @@
 as `lacedring decode`, and raises only BadFile for damaged files."""
 
 import array
+import math
 import os
 import random
 import struct
@@ -129,6 +130,18 @@ class StoredAttributes(unittest.TestCase):
         columns = [("POSITION", "f", 0, points), ("COLOR_0", "B", 1, [(i, i // 9) for i in range(200)])]
         self.write_file("m.ply", ply_of_attributes(columns, range(50, 80)))
         self.assertGreater(len(self.headers(self.encode("--positions", "12"))), 0)
+
+    def test_many_copies(self):
+        """The tips of a double pyramid, each with 300 triangles and a copy for each: on one side of the ring at most 253 are homes."""
+        count = 300
+        rim = [(math.cos(i), math.sin(i), 0) for i in (2 * math.pi * k / count for k in range(count))]
+        columns = [("POSITION", "f", 0, [(0, 0, 1)] * count + [(0, 0, -1)] * count + rim),
+                   ("TEXCOORD_0", "f", 0, [(i / count, i % 7 / 7) for i in range(2 * count)] + [(0, 0)] * count)]
+        edges = [(2 * count + i, 2 * count + (i + 1) % count) for i in range(count)]
+        self.write_file("m.ply", ply_of_attributes(columns, [v for i, (a, b) in enumerate(edges) for v in (i, a, b, count + i, b, a)]))
+        data = self.encode()
+        self.assertIn(lr_reader.STORED_SEAMS, [part[0] for part in lr_reader.sections(data)])
+        self.check(data)
 
     def replaced(self, data, number, contents):
         """The file with the contents of a section replaced."""

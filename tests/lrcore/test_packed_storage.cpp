@@ -165,6 +165,13 @@ TEST_CASE("random words are refused as stored packed stream, or decode the same 
     }
 }
 
+TEST_CASE("an empty place on the stack of open edges counts until a step looks for an edge below it") {
+    // The same words are in tests/independent/test_storage_reader.py; no encoder writes them.
+    const Words words{16, 5, 0, 6, 0xc1ee17f8, 0, 0x984031fc, 0, 0xd6d3f968, 0x86a11b54, 0x2c940};
+    const std::vector<std::uint32_t> triangles{0, 10, 5, 0, 5, 2, 2, 5, 3, 0, 2, 11, 5, 10, 7};
+    CHECK(test::triangles_in_c(words, 16, 5) == triangles);
+}
+
 TEST_CASE("the entropy decoder returns the encoder's numbers, symbols and bits, and reads all words") {
     const auto seed = std::random_device()();
     CAPTURE(seed);
