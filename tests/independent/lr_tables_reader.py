@@ -17,7 +17,7 @@ class Tables:
         if len(words) < 10 or words[0] != magic or words[1] != 1:
             raise BadFile("not LR tables of version 1")
         self.vertices, self.ring, self.t0, extra, isolated, copies, self.unit = words[2:9]
-        if self.unit not in ((2, 4, 8) if compact else (0,)):
+        if self.unit not in (range(2, 4097, 2) if compact else (0,)):
             raise BadFile("the LR tables have a wrong unit")
         if zlib.crc32(words[10:].tobytes(), zlib.crc32(words[:9].tobytes())) != words[9]:
             raise BadFile("the LR tables' checksum is wrong")
@@ -53,7 +53,7 @@ class Tables:
         if word & SPECIAL:
             kinds = {0: REDUNDANT, WART: CLOSING, IRREGULAR: BORDER}
             kind = kinds.get(word & (IRREGULAR | WART))
-            if kind is None or word & FLIP or (kind == BORDER and tip != TIP_MASK):
+            if kind is None:
                 raise BadFile(f"slot {s} is not valid")
             self.add_slot(kind, tip, 0)
         elif word & IRREGULAR and index is not None:

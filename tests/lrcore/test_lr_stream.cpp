@@ -154,6 +154,24 @@ TEST_CASE("tables whose redundant T2 is not v.n.n, or whose VO* has other opposi
     CHECK(entries > 20);
 }
 
+TEST_CASE("a flag at a T0's second or third vertex, or a unit in standard tables, is refused") {
+    const Words words = make(test::random_gluing(60, 200, 5));
+    for (const std::vector<std::uint32_t>* tables : {&words.standard, &words.compact}) {
+        const bool is_standard = tables == &words.standard;
+        REQUIRE((*tables)[4] > 0);  // T0
+        const std::size_t vo = kLrHeaderWords + std::size_t{(*tables)[3]} * (is_standard ? 2 : 1);
+        for (const std::size_t k : {1U, 2U}) {
+            std::vector<std::uint32_t> bad = *tables;
+            bad[vo + k] |= word::kT0Flip;
+            bad = with_checksum(bad);
+            CHECK_FALSE((is_standard ? validate_lr(bad).has_value() : validate_compact_lr(bad).has_value()));
+        }
+    }
+    std::vector<std::uint32_t> bad = words.standard;
+    bad[8] = 2;
+    CHECK_FALSE(validate_lr(with_checksum(bad)));
+}
+
 TEST_CASE("damaged LR streams are refused or have consistent operators") {
     const auto standard = [](std::span<const std::uint32_t> w) { return validate_lr(w); };
     const auto compact = [](std::span<const std::uint32_t> w) { return validate_compact_lr(w); };

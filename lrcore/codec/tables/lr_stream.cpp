@@ -45,7 +45,9 @@ std::vector<std::uint32_t> decode_to_vector(const LrStreamView<View>& stream) {
 }  // namespace
 
 Result<LrStreamView<LrView>> view_lr(std::span<const std::uint32_t> words) {
-    return view_tables<LrView>(words, magic::kLr, 2, "standard LR tables");
+    Result<LrStreamView<LrView>> stream = view_tables<LrView>(words, magic::kLr, 2, "standard LR tables");
+    if (stream && words[kW_unit] != 0) return malformed_lr("a unit of VO* in standard tables");
+    return stream;
 }
 Result<LrStreamView<CompactLrView>> view_compact_lr(std::span<const std::uint32_t> words) {
     Result<LrStreamView<CompactLrView>> stream =

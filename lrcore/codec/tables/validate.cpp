@@ -124,7 +124,8 @@ std::string check_named(const View& view) {
         if (!exists(c)) return "an isolated vertex has an invalid corner";
     }
     for (std::uint32_t i = 0; i < view.vo.size() / 2; ++i) {
-        if (view.t0_vertex(i) >= view.used_vertices()) return detail::message("T0 ", i / 3, ": vertex");
+        const bool has_flag = i % 3 != 0 && (view.vo[std::size_t{i / 3} * 6 + i % 3] & word::kT0Flip) != 0;
+        if (has_flag || view.t0_vertex(i) >= view.used_vertices()) return detail::message("T0 ", i / 3, ": vertex");
         if (!exists_or_null(view.t0_opposite(i)))
             return detail::message("T0 ", i / 3, ": opposite ", view.t0_opposite(i));
     }
