@@ -112,7 +112,7 @@ void add_report(CLI::App& program, Action& action) {
         program.add_subcommand("report", "write figures, charts and pictures of meshes as one HTML page");
     command->add_option("MESH", options->paths, "mesh files or .lr files; - is standard input")->required();
     add_output(*command, options->output, ".html file to write; - is standard output");
-    add_input_options(*command, options->input, 350);
+    add_input_options(*command, options->input, 420);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
     options->pictures.add_options(*command);

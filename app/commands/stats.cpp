@@ -284,7 +284,7 @@ void add_stats(CLI::App& program, Action& action) {
     auto options = std::make_shared<StatsOptions>();
     CLI::App* command = program.add_subcommand("stats", "list the size of a mesh in every format");
     command->add_option("MESH", options->paths, "mesh files or .lr files; - is standard input")->required();
-    add_input_options(*command, options->input, 350);
+    add_input_options(*command, options->input, 420);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.threads, &options->ring.threads});
     command->add_flag("--paper", options->paper, "make rings as the paper does, without the optimizer");

@@ -111,7 +111,7 @@ void add_verify(CLI::App& program, Action& action) {
     CLI::App* command =
         program.add_subcommand("verify", "check that every format gives back the mesh, and each primitive of a scene");
     command->add_option("MESH|IN.lr", options->input.path, "mesh file or .lr file; - is standard input")->required();
-    add_input_options(*command, options->input.options, 350);
+    add_input_options(*command, options->input.options, 420);
     add_ring_options(*command, options->ring);
     add_threads(*command, {&options->input.options.threads, &options->ring.threads});
     add_json(*command, options->json);
