@@ -162,7 +162,7 @@ void add_render(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("render", "draw a mesh into a PNG file");
     command->add_option("MESH", options->inputs, "mesh files or .lr files; - is standard input")->required();
     add_output(*command, options->output, ".png file to write; FOLDER/ for several inputs; - is standard output");
-    add_input_options(*command, options->input, 150);
+    add_input_options(*command, options->input, 220);
     allow_words(command->add_option("--source", options->source, "draw from {}"), gpu::names_of(gpu::kSources))
         ->capture_default_str();
     add_position_bits(*command, options->positions);
