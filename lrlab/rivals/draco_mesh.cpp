@@ -17,6 +17,7 @@
 
 #include "lrcore/base/try.h"
 #include "lrcore/codec/vertices/quantize.h"
+#include "lrlab/rivals/limit.h"
 #endif
 
 namespace lacedring {
@@ -188,6 +189,7 @@ void compare(const draco::Mesh& decoded, const Mesh& mesh, const std::vector<Dra
 }  // namespace
 
 Result<RivalMesh> encode_draco_mesh(const Mesh& mesh, const AttributeBits& bits) {
+    LR_TRY(check_valences(mesh.indices, mesh.vertex_count, "Draco"));
     std::vector<DracoInput> inputs;
     for (const Attribute& attribute : mesh.attributes) inputs.push_back(input_of(attribute, bits));
     LR_ASSIGN(Coded coded, encode_draco(*draco_mesh(mesh, inputs, false), inputs));
@@ -200,6 +202,7 @@ Result<RivalMesh> encode_draco_mesh(const Mesh& mesh, const AttributeBits& bits)
 }
 
 Result<std::vector<std::byte>> draco_bytes(const Mesh& mesh, const AttributeBits& bits, int level) {
+    LR_TRY(check_valences(mesh.indices, mesh.vertex_count, "Draco"));
     std::vector<DracoInput> inputs;
     for (const Attribute& attribute : mesh.attributes) inputs.push_back(input_of(attribute, bits));
     LR_ASSIGN(const draco::EncoderBuffer coded, encode_draco_at(*draco_mesh(mesh, inputs, false), inputs, level));

@@ -50,12 +50,12 @@ Valences count_valences(std::span<const std::uint32_t> indices, std::uint32_t ve
     return out;
 }
 
-Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count) {
+Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count,
+                            std::string_view rival) {
     const Valences valences = count_valences(indices, vertex_count);
     if (valences.moderate()) return {};
-    return Error{
-        ErrorCode::too_large,
-        fmt::format("meshoptimizer takes time quadratic in a vertex's triangles, and one has {}", valences.most)};
+    return Error{ErrorCode::too_large,
+                 fmt::format("{} takes time quadratic in a vertex's triangles, and one has {}", rival, valences.most)};
 }
 
 Result<void> check_places(std::span<const std::uint32_t> indices, std::span<const float> positions) {

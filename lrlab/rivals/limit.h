@@ -1,8 +1,9 @@
 #pragma once
-// Finds meshes for which meshoptimizer would take quadratic time.
+// Finds meshes for which meshoptimizer or Draco would take quadratic time.
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "lacedring/base.hpp"
 
@@ -21,10 +22,12 @@ struct Valences {
 /// Cost: O(T), 4 bytes a vertex.
 Valences count_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
 
-/// Checks that meshoptimizer's algorithms (vertex cache, strips, meshlets) take linear time. For each triangle they
-/// visit all remaining triangles at its vertices: a fan of 100,000 takes minutes. Cost: that of count_valences. Errors:
-/// too_large (the valences are not moderate).
-Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count);
+/// Checks that the algorithms of `rival` take linear time. For each triangle, meshoptimizer's (vertex cache, strips,
+/// meshlets) visit all remaining triangles at its vertices: a fan of 100,000 takes minutes. For each edge, Draco's
+/// encoder visits all edges of its vertex. Cost: that of count_valences. Errors: too_large (the valences are not
+/// moderate).
+Result<void> check_valences(std::span<const std::uint32_t> indices, std::uint32_t vertex_count,
+                            std::string_view rival = "meshoptimizer");
 
 /// Checks that making meshlets of a mesh with many components takes linear time. After each component, meshoptimizer
 /// searches a triangle by its centroid and visits all triangles that have this centroid. `positions` has 3 floats a

@@ -93,6 +93,9 @@ class Hubs(CliTest):
             source = self.make(kind, n)
             self.ok("stats", source)
             self.ok("verify", source)
+        fan = self.make("fan", n)
+        self.assertIn("Draco takes time quadratic", self.ok("stats", "--table", "total", fan).out)
+        self.ok("bench", "--no-gpu", "--rounds", "1", fan)
 
     def test_large_coordinates(self):
         for scale in (1e10, 1e20, 1e30):
