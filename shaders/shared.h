@@ -46,7 +46,9 @@ struct VertexConstants {
     uint unused;
     uvec2 stream;  // address of the stream
 };
-#define LR_VERTEX_GROUP_SIZE 32u  // workgroup size of vertex_decode.comp and seam_decode.comp; one block per invocation
+// Workgroup size of vertex_decode.comp and seam_decode.comp. An invocation decodes a block, or gives a copy its
+// position (LR_SEAM_PASS_POSITIONS).
+#define LR_VERTEX_GROUP_SIZE 32u
 
 // seam_decode.comp: one dispatch decodes `blocks` blocks from `first_block` on. In LR_SEAM_PASS_POSITIONS both count
 // copies. The descriptors begin at the first vertex, corner or copy of the dispatch.

@@ -21,9 +21,10 @@ struct VertexBench {
     std::vector<std::pair<std::string, std::string>> absent;  ///< name, reason
 };
 
-/// "vertices": a vertex stream to floats; "meshopt_vertex_codec": the same integers, stored as its users do, as 4 of 16
-/// bits per vertex, to integers. `order`, `coded_order`: their vertex orders, order[new] = old; empty `coded_order`: no
-/// rival. Errors: invalid_argument if the rival decodes other integers.
+/// Makes two candidates. "vertices" decodes a vertex stream to floats. "meshopt_vertex_codec" decodes the same lattice
+/// integers with meshoptimizer, stored as four u16 per vertex (x, y, z and 0), as is usual for that codec. `order` and
+/// `coded_order` are their vertex orders, order[new] = old. The codec is absent if `coded_order` is empty or the
+/// positions are not on a lattice. Errors: invalid_argument if the codec decodes other integers.
 Result<VertexBench> vertex_candidates(const Mesh& mesh, const VertexOptions& options,
                                       std::span<const std::uint32_t> order, std::span<const std::uint32_t> coded_order);
 

@@ -31,7 +31,7 @@ using Action = std::function<int(RunLog&)>;
 /// Options for making rings.
 struct RingChoice {
     std::string ring;         ///< "expander" or "hybrid"; "": the best for each format
-    std::string k = "auto";   ///< period of the hybrid; "auto": the best of recommended_periods
+    std::string k = "auto";   ///< period k of the hybrid ring-expander; "auto": the best of recommended_periods
     std::uint32_t seeds = 0;  ///< 0: recommended_seeds
     std::uint64_t random_seed = 1;
     /// EncodeOptions::effort; decides the options that are not given.

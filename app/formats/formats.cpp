@@ -29,7 +29,7 @@ struct Subject {
 };
 
 /// Sets `format.indices`, `order` and `seam_bytes`; `invalid` if the seam section does not decode to the mesh's
-/// corners. `view`: of encoded.words.
+/// corners. `view` is the view of encoded.words.
 void add_indices(MeasuredFormat& format, const Subject& subject, Encoded encoded, const StreamView& view) {
     format.indices = decode(view);
     if (subject.surface.has_seams()) {

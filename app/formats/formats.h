@@ -28,7 +28,7 @@ struct MeasuredFormat {
     /// order[vertex number of the format] = vertex of the surface; empty: the numbers are the same.
     std::vector<std::uint32_t> order = {};
     const char* ring = nullptr;  ///< "expander", "hybrid" or "optimized"; null: no ring
-    std::uint32_t k = 0;         ///< period of the hybrid
+    std::uint32_t k = 0;         ///< RingOptions::k
     std::uint32_t passes = 0;    ///< of the optimizer
     /// Copies of non-manifold vertices, which `order` has in addition.
     std::size_t copies = 0;

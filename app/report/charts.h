@@ -17,7 +17,8 @@ BitScale bit_scale(std::span<const MeshReport> meshes);
 /// One bar per format, shortest first.
 std::string bit_bars(const MeshReport& mesh, const BitScale& scale);
 
-/// One histogram of offsets per period, and a table of their numbers: section 6.1 and Figure 8 of the paper.
+/// A histogram of the offsets along the ring for each k of Figure 8 (RingOptions::k; 0: depth first), and a table of
+/// the same counts. Paper: section 6.1, Figure 8.
 std::string offset_histograms(const MeshReport& mesh);
 
 /// The CSS class that colors a format: "ours", "paper" or "baseline".

@@ -35,7 +35,8 @@ struct ReportPicture {
 struct MeshReport {
     std::string path;
     std::size_t triangles = 0;
-    std::uint32_t vertices = 0, copies = 0;  ///< vertices of the surface; of the mesh
+    std::uint32_t vertices = 0;  ///< of the surface
+    std::uint32_t copies = 0;    ///< vertices of the mesh
     TopologyReport report;
     Topology topology;
     LeanStatistics lean;

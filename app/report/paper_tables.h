@@ -27,7 +27,7 @@ struct MeshRow {
 /// Prints the table; with more than one mesh, mean and median below.
 void print(std::span<const Column> columns, std::span<const MeshRow> rows);
 
-/// Figures for one period k of the hybrid: sections 6.1 and 7, Figure 8.
+/// Figures of rings made with one k (RingOptions::k). Paper: sections 6.1 and 7, Figure 8.
 struct PeriodFigures {
     double triangles = 0;  ///< without degenerate ones
     std::uint32_t k = 0;   ///< 0: depth first

@@ -28,7 +28,7 @@ async function start() {
     return made;
   }
   const {Worker: NodeWorker} = await nodeThreads();
-  const here = import.meta.url;  // else bundlers for browsers copy the script once more
+  const here = import.meta.url;  // in one expression, bundlers for browsers would copy the script a second time
   const made = new NodeWorker(new URL("./worker.js", here));
   made.on("message", settle);
   made.on("error", (error) => fail(error.message));

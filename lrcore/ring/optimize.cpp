@@ -203,7 +203,7 @@ class Annealer {
         return Try::done;
     }
 
-    /// Laces in vertex(c), which is off the rings.
+    /// Tries to lace in vertex(c), which is on no ring, at a random possible corner near c. Returns whether it did.
     bool try_lace_in(std::uint32_t c) {
         walk_fan(c);
         add_to_fan(c);

@@ -114,7 +114,8 @@ class PolygonList {
 
     void add_other(std::uint64_t corners);
 
-    std::vector<Polygon> polygons_;  // polygons of more than 3 corners
+    // Polygons of more than 3 corners, and fillers of 2 corners where `skipped` would overflow.
+    std::vector<Polygon> polygons_;
     std::uint32_t skipped_ = 0;
     std::uint64_t short_faces_ = 0;
 };

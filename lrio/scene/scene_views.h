@@ -22,8 +22,9 @@ class SceneViewWriter {
     /// Adds the views that accessors and images use, renumbered. If unknown extensions may refer to views by index,
     /// keeps all views and their indices. Errors: malformed, those of reading buffers.
     Result<void> keep_others();
-    /// Add the bytes of a stream, or of a fallback's accessor; return the index of the new view.
+    /// Adds the bytes of a stream; returns the index of the new view.
     std::uint64_t add_stream(std::span<const std::byte> bytes);
+    /// The same for an accessor of the fallback, with rows of `stride` bytes.
     std::uint64_t add_plain(std::span<const std::byte> bytes, std::size_t stride);
 
     /// Returns the document with its views and buffers.

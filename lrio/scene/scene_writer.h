@@ -67,8 +67,9 @@ JsonValue describe_view(JsonText& json, std::size_t at, std::size_t size, std::s
 /// Sets the document's buffers to one buffer of `size` bytes, or to none if `size` is 0. `uri` may be empty.
 void describe_buffers(JsonText& json, std::size_t size, const std::string& uri);
 
-/// Add the extension's name to a list of the document, or remove an extension's name.
+/// Adds the name of our extension to the document's `list`: "extensionsUsed" or "extensionsRequired".
 void list_extension(JsonText& json, std::string_view list);
+/// Removes `name` from that list, and the list if it is then empty.
 void unlist_extension(JsonValue& root, std::string_view list, std::string_view name);
 
 /// The object of the extension in a value, or null.

@@ -82,8 +82,8 @@ void add_materials(Model& model, const Mesh& mesh, const Materials& materials);
 /// Encodes the seam sections of the model's streams again, if its surface has seams. Errors: those of encode_seams.
 Result<void> encode_seams(Model& model);
 
-/// Makes a model and encodes its streams (corner table, ring, streams). Cost: O(V + T).
-/// Errors: those of make_surface and encode_seams, too_large of build_corner_table.
+/// Makes a model and encodes its streams (corner table, ring, streams). Cost: O(V + T) per seed and pass. Errors: those
+/// of make_surface, build_corner_table, encode_lean, encode_smallest_packed, encode_vertices and encode_seams.
 Result<Model> make_model(const Mesh& mesh, const ModelOptions& options = {});
 
 }  // namespace lacedring::gpu

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-// Decodes a seam section, one block per invocation, in passes: vertex blocks give each vertex's home copies, then
-// triangle blocks give an index buffer over copies. If positions come from a vertex stream of the surface, a third pass
-// gives each copy its vertex's position.
+// Decodes a seam section in passes: vertex blocks give each vertex's home copies, then triangle blocks give an index
+// buffer over copies, one block per invocation. If positions come from a vertex stream of the surface, a third pass gives
+// each copy its vertex's position, one copy per invocation.
 #include "shaders/shared.h"
 
 layout(local_size_x = LR_VERTEX_GROUP_SIZE) in;

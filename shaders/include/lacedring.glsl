@@ -471,7 +471,8 @@ void lr_packed_repeat(inout LrPackedState s) {
     s.finished = false;
 }
 
-// The number of triangles left in a polygon that is entered across (a, b).
+// The number of triangles from edge (a, b) on until the polygon is finished; 0xffffffff if b - a is 1 already, since only
+// a turn finishes a polygon.
 uint lr_packed_left(uint a, uint b) { return b - a == 1u ? 0xffffffffu : b - a - 1u; }
 
 // SPLIT, FAR or JUMP: returns the third vertex of the event's triangle, and moves the state to the first part after it.

@@ -499,7 +499,8 @@ fn lr_packed_repeat(before: LrPackedState) -> LrPackedState {
   return s;
 }
 
-// The number of triangles left in a polygon that is entered across (a, b).
+// The number of triangles from edge (a, b) on until the polygon is finished; 0xffffffff if b - a is 1 already, since only
+// a turn finishes a polygon.
 fn lr_packed_left(a: u32, b: u32) -> u32 { return select(b - a - 1u, 0xffffffffu, b - a == 1u); }
 
 // SPLIT, FAR or JUMP: the third vertex of its triangle.

@@ -22,7 +22,7 @@ namespace lacedring::gpu {
 
 // One triangle of the mesh during RING-EXPANDER (ring.hpp).
 struct GrowthTriangle {
-    uint step;  // the triangle's side of the ring is final once more triangles than this are invaded
+    uint step;  // the triangle's side of the ring is final as soon as step + 1 triangles are invaded
 #ifdef __cplusplus
     std::array<uint, 3> across;
 #else

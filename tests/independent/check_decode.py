@@ -69,8 +69,8 @@ def compare(wanted, got):
             f"{turned} of them reversed")
 
 
-def in_order(mesh, decoded):
-    """Whether each triangle of the .lr file begins with the mesh's corner that the file's corner order names."""
+def order_fault(mesh, decoded):
+    """Returns None if each triangle of the .lr file begins with the input's corner that the file's corner order names, else what is wrong."""
     for i, corner in enumerate(decoded.corner_order):
         t, first = divmod(corner, 3)
         wanted = [mesh.indices[3 * t + (first + k) % 3] for k in range(3)]
@@ -101,7 +101,7 @@ def main():
             if why is None and repeated and not options.allow_degenerate:
                 why = f"{repeated} degenerate triangles"
             if why is None and decoded.corner_order is not None:
-                why = in_order(mesh, decoded)
+                why = order_fault(mesh, decoded)
             if why is not None:
                 print(f"FAIL {options.input}: {path}: {why}")
                 return 1

@@ -57,8 +57,8 @@ class Bits:
 
 
 class Header:
-    """The stream's header and the positions of its parts. `triangles`: number of own triangles; `doubles`: of doubles; `runs`: of
-    runs of doubles."""
+    """The stream's header and the positions of its parts. `triangles`, `doubles`, `runs`: the numbers of own triangles,
+    of doubles, and of runs of doubles."""
 
     def __init__(self, words):
         if len(words) >= 1 and words[0] == MAGIC_1:

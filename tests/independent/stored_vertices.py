@@ -188,7 +188,7 @@ def check_ranges(header, integers):
 
 
 def read_stored_vertices(words, vertices, triangles, positions=None, vertex_of=None):
-    """The header, with `integers` and `values` as in read_vertices. `words`: an array of "I"; `triangles`: of the stream's
+    """The header, with `integers` and `values` as in read_vertices. `words`: an array of "I"; `triangles` index the stream's
     vertices; `positions`: integers of the file's positions; `vertex_of`: if the stream is of copies, the vertex of each."""
     part, at = take_part(words, 0)
     coded = Coded(part)

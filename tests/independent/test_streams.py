@@ -101,7 +101,7 @@ def entry_field(entry):
 
 def packed(turns, entry, *blocks, step=40, offset_bits=16, entry_bits=0, table=None, kinds=None, doubles=None,
            change_head=str):
-    """A stream of groups of 16 blocks. A block is a record, or (kind, bytes, own entry or None, entry step). `entry`: of each
+    """A stream of groups of 16 blocks. A block is a record, or (kind, bytes, own entry or None, entry step). `entry` is the entry of each
     group. `doubles`: (D, runs, ...), or None."""
     data, begins = b"", []
     for first in range(0, len(blocks), 16):

@@ -156,7 +156,7 @@ void check_random_access(const EncodedPacked& stream) {
     }
 }
 
-/// `sheet` with its triangles [begin, end) once more, of the same orientation or `turned`.
+/// Returns `sheet` with a second copy of its triangles [begin, end), reversed if `turned`.
 Mesh doubled(const Mesh& sheet, std::uint32_t begin, std::uint32_t end, bool turned) {
     Mesh mesh = sheet;
     for (std::uint32_t t = begin; t < end; ++t) {

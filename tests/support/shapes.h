@@ -52,7 +52,7 @@ Shape beside(const Shape& a, const Shape& b);
 Shape pinch(Shape shape, std::uint32_t from, std::uint32_t to);
 /// Flips every k-th triangle.
 Shape turn_some(Shape shape, std::uint32_t k);
-/// Appends every k-th triangle once more, flipped if `turned`.
+/// Appends a second copy of every k-th triangle, reversed if `turned`.
 Shape double_some(Shape shape, std::uint32_t k, bool turned);
 /// Shuffles and rotates the triangles, and renumbers the vertices at random.
 Shape shuffle(Shape shape, std::uint64_t seed);

@@ -24,7 +24,7 @@ using Input = app::MeshInput;
 /// Options for making the ring, as on the panel.
 struct RingSettings {
     bool hybrid = false;
-    std::uint32_t k = 100;    ///< period of the hybrid
+    std::uint32_t k = 100;    ///< RingOptions::k
     std::uint32_t seeds = 1;  ///< per component
     std::uint64_t random_seed = 1;
     CornerId start = kNullCorner;  ///< seed corner; null: in the first triangle
@@ -46,7 +46,7 @@ struct StreamFigures {
 struct OwningModel : gpu::Model {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Materials> owned_materials;
-    /// The file has materials, with which it is shown first.
+    /// The file has materials. It is then first shown in View::material, unless the user has chosen a view.
     bool has_materials = false;
 };
 

@@ -91,7 +91,8 @@ class Uploader {
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     gpu::Expander* expander_ = nullptr;
-    std::optional<Job> next_, last_;  // queued; asked for last and not taken
+    std::optional<Job> next_;  // the queued job
+    std::optional<Job> last_;  // the job asked for last; empty once its result was taken
     std::optional<Done> done_;
     std::atomic<bool> stop_ = false;  // stops the running job
     bool working_ = false, quit_ = false;

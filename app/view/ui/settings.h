@@ -32,7 +32,7 @@ Action set(std::string_view name, std::string_view value);
 /// Sets to `value`, or to `other` if it is `value` already.
 Action toggle(const Choices& choices, std::string_view name, std::string_view value = "on",
               std::string_view other = "off");
-/// Sets to the next value of the setting's list, or to the previous one.
+/// Sets the next value of the setting's list, or the previous one if `back`.
 Action cycle(const Choices& choices, std::string_view name, bool back);
 /// The action for `set NAME VALUE` of a script. Errors: invalid_argument, with the values that the setting has.
 Result<Action> parse_setting(std::string_view name, const std::string& value);

@@ -94,9 +94,10 @@ struct Facts {
     double longest_frame = 0;
     /// Seconds from the program's start to its first frame.
     double started = 0;
-    std::uint64_t device_bytes = 0, device_held = 0;  ///< memory in use; allocated
-    Area free;                                        ///< the part not covered by panels
-    bool window_too_large = false;                    ///< the device cannot show such a window
+    std::uint64_t device_bytes = 0;  ///< memory in use
+    std::uint64_t device_held = 0;   ///< memory allocated
+    Area free;                       ///< the part not covered by panels
+    bool window_too_large = false;   ///< the device cannot show such a window
     /// Samples along each side of a pixel, for pictures at rest.
     std::uint32_t samples = 0;
     std::string device;

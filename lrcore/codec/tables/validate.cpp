@@ -251,7 +251,8 @@ class StarChecker {
     const View& view_;
     const Operators<View> ops_;
     const std::uint32_t numbers_;
-    std::uint64_t most_ = 0, corners_ = 0;    // corners of all triangles; corners walked
+    std::uint64_t most_ = 0;                  // corners of all triangles
+    std::uint64_t corners_ = 0;               // corners walked
     std::uint64_t larger_ = 0, smaller_ = 0;  // corners with a larger, a smaller opposite
     std::vector<VertexId> neighbors_;         // neighbors of one vertex, in star order
     std::string why_;

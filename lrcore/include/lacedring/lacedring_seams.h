@@ -26,10 +26,12 @@ extern "C" {
 #endif
 
 #define LACEDRING_SEAMS_HEADER_WORDS 8
-#define LACEDRING_SEAMS_BLOCK 512u     /* triangles per block; vertices per vertex block */
-#define LACEDRING_SEAMS_GROUP 32u      /* blocks per group of a directory */
-#define LACEDRING_SEAMS_BACK 64u       /* how far before a triangle its parent may be */
-#define LACEDRING_SEAMS_MAX_STEPS 255u /* positions of a vertex, less 1 */
+#define LACEDRING_SEAMS_BLOCK 512u /* triangles per block; vertices per vertex block */
+#define LACEDRING_SEAMS_GROUP 32u  /* blocks per group of a directory */
+#define LACEDRING_SEAMS_BACK 64u   /* how far before a triangle its parent may be */
+/* A "position" of a vertex is not a point: it numbers the home copies of the vertex along its fan, 0 to its number of
+   steps. The last position of a vertex that wraps is home copy 0 again. */
+#define LACEDRING_SEAMS_MAX_STEPS 255u
 #define LACEDRING_SEAMS_MAX_COPIES 0x3fffffffu
 /* Flag of a state: the other bits are the number of a private copy. */
 #define LACEDRING_SEAMS_PRIVATE 0x80000000u
@@ -385,9 +387,9 @@ void lacedring_seams_homes(const struct lacedring_seams* s, uint32_t* home) {
         lacedring_seam_vertex_block_(s, block, home + (size_t)block * LACEDRING_SEAMS_BLOCK);
 }
 
-/* Decodes a block of triangles. For each corner: the vertex's entry of lacedring_seams_homes, the vertex's steps (its
-   last position), and a state: a position, or LACEDRING_SEAMS_PRIVATE with the number of a private copy. For each
-   triangle: its side, 0 left or 1 right. */
+/* State of decoding a block of triangles. For each corner: home[v] of its vertex v (lacedring_seams_homes); the number
+   of v's steps; and the corner's state, a position of v, or LACEDRING_SEAMS_PRIVATE with the number of a private copy.
+   For each triangle: its side, 0 left or 1 right. */
 struct lacedring_seam_walk_ {
     struct lacedring_seam_reader_ r;
     const uint32_t* triangles;

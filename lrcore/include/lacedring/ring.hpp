@@ -124,7 +124,7 @@ struct Expansion {
 /// Bit set in the step of a triangle that is never invaded.
 constexpr std::uint32_t kNeverInvaded = 0x80000000U;
 
-/// For each triangle, the step s after which its side of the ring is final: once more than s triangles are invaded.
+/// For each triangle, a step s: the triangle's side of the ring is final as soon as s + 1 triangles are invaded.
 /// Either the triangle is itself the one invaded at step s (counted from 0), or it has the bit kNeverInvaded and step s
 /// reached its last vertex through another triangle. Triangles with a vertex on no ring and degenerate triangles become
 /// final with the last triangle invaded. After n steps, the rings so far are the edges between an invaded triangle

@@ -58,7 +58,9 @@ struct CornerTable : TableCorners {
     /// V and O are interleaved because most code reads both: a triangle then lies in one cache line.
     struct Corner {
         VertexId vertex;
-        CornerId opposite;  ///< null at a border, at a cut and in a degenerate triangle
+        /// Null if unjoined: at a border, at a cut, at an unpaired half-edge of a non-manifold edge, in a degenerate
+        /// triangle.
+        CornerId opposite;
     };
     /// 3 per triangle, in the input's order; the last two are swapped in flipped triangles.
     std::vector<Corner> corners;
