@@ -112,8 +112,10 @@ int main(int argc, char** argv) {
     }
     fclose(file);
     file_count = size / 4;
-    if (file_count < 8 || file_words[0] != 0x4c46524c || file_words[2] > (file_count - 8) / 8)
-        return fail("no .lr file");
+    if (file_count < 8 || file_words[0] != 0x4c46524c || file_words[1] != 4 ||
+        lacedring_crc32(file_words, 28) != file_words[7] || file_words[2] > (file_count - 8) / 8 ||
+        lacedring_crc32(file_words + 8, 32 * (size_t)file_words[2]) != file_words[6])
+        return fail("no .lr file of version 4, or its header or section table is damaged");
 
     words = section(PACKED, &count, &stored);
     indices = words == NULL ? NULL : read_triangles(words, count, stored, &triangles);

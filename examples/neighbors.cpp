@@ -1,5 +1,6 @@
-// Prints the neighbors of each triangle of a mesh by the mesh's own numbers. The operators have numbers of their own:
-// the i-th canonical one is the triangle triangle_order[i] of the mesh.
+// Prints for each triangle of a mesh the neighbor across from each of its corners, all by the mesh's own numbers. The
+// operators have numbers of their own: the i-th canonical one is the triangle triangle_order[i] of the mesh, and its
+// first corner may be another one.
 #include <cstdio>
 #include <lacedring/lacedring.hpp>
 
@@ -14,8 +15,9 @@ int main() {
     const auto* tables = stream->get<LrStreamView<LrView>>();
     const Operators ops(tables->view, tables->copies);
 
-    std::vector<std::uint32_t> number_in_mesh(tables->view.triangle_numbers(), UINT32_MAX);
-    std::vector<TriangleId> number_in_tables(indices.size() / 3);
+    // Degenerate triangles are not in the tables: their entries stay null.
+    std::vector<TriangleId> number_in_tables(indices.size() / 3, kNullTriangle);
+    std::vector<std::uint32_t> number_in_mesh(tables->view.triangle_numbers());
     std::size_t decoded = 0;
     for (const TriangleId t : IdRange<TriangleTag>(tables->view.triangle_numbers())) {
         if (!ops.is_canonical(t)) continue;  // a triangle's second number, or none's
@@ -24,11 +26,12 @@ int main() {
     }
 
     for (std::size_t i = 0; i < number_in_tables.size(); ++i) {
-        std::printf("%zu:", i);
+        if (number_in_tables[i].is_null()) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const CornerId o = ops.opposite(ops.corner(number_in_tables[i], k));  // null across a border
-            if (!o.is_null()) std::printf(" %u", number_in_mesh[ops.triangle(o).value]);
+            const CornerId c = ops.corner(number_in_tables[i], k), o = ops.opposite(c);  // null across a border
+            if (o.is_null()) continue;
+            std::printf("triangle %zu, across from vertex %u: triangle %u\n", i,
+                        encoded->vertex_order[ops.vertex(c).value], number_in_mesh[ops.triangle(o).value]);
         }
-        std::puts("");
     }
 }

@@ -90,11 +90,15 @@ export function serve(folders, port = 0, {files = {}, isolated = false} = {}) {
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const port = Number(process.argv[2] ?? 8080);
+  if (!Number.isInteger(port) || port < 0 || port > 65535) {
+    console.error("web: PORT is a number from 0 to 65535");
+    process.exit(2);
+  }
   serve(FOLDERS, port)
     .then(
       () => console.log(`http://127.0.0.1:${port}/ and http://127.0.0.1:${port}/gpu/ (control + C ends it)`),
-      ({message}) => {
-        console.error(`web: ${message}`);
+      ({code, message}) => {
+        console.error(`web: ${code === "EADDRINUSE" ? `port ${port} is in use: scripts/web PORT` : message}`);
         process.exit(1);
       });
 }

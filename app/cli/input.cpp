@@ -72,8 +72,8 @@ Result<LoadedMesh> read(const MeshInput& input, RunLog& log, PrimitiveList* list
     if (!mesh) return mesh.error();
     if (!report.left_out.empty()) {
         const bool hint = options.writes && report.format == MeshFormat::gltf;
-        log.note(input_name(input.path), (options.writes ? "not kept: " : "left out of the mesh: ") +
-                                             listed(report.left_out) + (hint ? " (lacedring pack keeps scenes)" : ""));
+        log.note(input_name(input.path), (options.writes ? "not kept: " : "not used here: ") + listed(report.left_out) +
+                                             (hint ? " (lacedring pack keeps scenes)" : ""));
     }
     if (list != nullptr && report.primitives > 1) {
         // Commands process primitives one by one, in the memory that was counted for the joined mesh.

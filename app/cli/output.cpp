@@ -62,6 +62,15 @@ Result<void> check_output(const fs::path& path, const OutputOptions& options, co
     return {};
 }
 
+Result<void> check_mesh_output(const fs::path& path, const OutputOptions& options, const RunLog& log) {
+    constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
+    if (path != "-" && std::ranges::find(kExtensions, lower_extension(path)) == std::end(kExtensions)) {
+        return Error{ErrorCode::invalid_argument,
+                     fmt::format("meshes are written as {}", fmt::join(kExtensions, " or "))};
+    }
+    return check_output(path, options, log, kExtensions);
+}
+
 Result<void> write_output(const fs::path& path, std::span<const std::span<const std::byte>> parts) {
     return path == "-" ? write_descriptor(STDOUT_FILENO, parts) : write_file(path, parts);
 }

@@ -29,9 +29,6 @@ void add_force(CLI::App& command, OutputOptions& options);
 /// Name of an output in messages: the path, or "standard output".
 std::string output_name(const std::filesystem::path& path);
 
-/// Extensions of the mesh files that commands write.
-inline constexpr std::string_view kMeshExtensions[] = {".glb", ".ply", ".obj"};
-
 /// Unless --force is given, refuses an output that is one of the files read (also through links), or has the extension
 /// of a kind of file that is not in `extensions` (".lr"). Errors: invalid_argument.
 Result<void> check_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log,
@@ -42,6 +39,9 @@ Result<void> write_output(const std::filesystem::path& path, std::span<const std
 
 /// "12 triangles, 8 vertices, 345 bytes"
 std::string written_text(const Mesh& mesh, std::uint64_t bytes);
+
+/// check_output of a mesh file. Also refuses an extension other than .glb, .ply and .obj, even with --force.
+Result<void> check_mesh_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log);
 
 /// Output paths, one per input: options.path for a single input, else FOLDER/STEM + `extension`; creates FOLDER.
 /// Errors: invalid_argument (several inputs and no folder, or two equal outputs), cannot_write (FOLDER).

@@ -48,7 +48,7 @@ int decode(const DecodeOptions& options, const std::string& input, const fs::pat
     if (!bytes) return fail(input, bytes.error());
     const Result<LrFile> file = parse_lr(*bytes, options.input.max_memory << 20, thread_count(options.input.threads));
     if (!file) return fail(input, file.error());
-    if (const auto good = check_output(output, options.output, log, kMeshExtensions); !good) {
+    if (const auto good = check_mesh_output(output, options.output, log); !good) {
         return fail(output_name(output), good.error());
     }
     const Result<Mesh> mesh = options.original_order ? decode_lr_original_order(*file) : Result<Mesh>(decode_lr(*file));

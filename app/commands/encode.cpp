@@ -108,7 +108,7 @@ int encode_file(const EncodeCommand& options, const std::string& input, const st
     if (const Result<void> written = write_output(output, parts); !written) {
         return fail(output_name(output), written.error());
     }
-    if (degenerate > 0) log.note(input_name(input), fmt::format("{} degenerate triangles dropped", degenerate));
+    if (degenerate > 0) log.note(input_name(input), count_text(degenerate, "degenerate triangle") + " dropped");
     if (turned > 0) log.note(input_name(input), fmt::format("{} triangles reversed by --orient", turned));
     note_lossless(log, input, whole->attributes);
     const LrFile& file = whole->file;

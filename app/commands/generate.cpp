@@ -33,7 +33,7 @@ int run_generate(const GenerateOptions& options, RunLog& log) {
                     Error{ErrorCode::invalid_argument,
                           standard ? "needs --output-format glb, ply or obj" : "--output-format goes with -o -"});
     }
-    if (const auto good = check_output(output, options.output, log, kMeshExtensions); !good)
+    if (const auto good = check_mesh_output(output, options.output, log); !good)
         return fail(output_name(output), good.error());
     const Result<Mesh> mesh = generate(options.kind, options.triangles, options.seed);
     if (!mesh) return fail(fmt::format("--triangles {}", options.triangles), mesh.error());

@@ -104,7 +104,7 @@ void print_sizes(const std::string& path, const Mesh& mesh, const FormatSet& set
           set.topology.border_edges);
     if (set.seam_edges > 0) print(", {} seam edges", set.seam_edges);
     if (set.topology.nonmanifold_edges > 0) print(", {} non-manifold edges", set.topology.nonmanifold_edges);
-    if (set.topology.degenerate > 0) print(", {} degenerate triangles dropped", set.topology.degenerate);
+    if (set.topology.degenerate > 0) print(", {} dropped", count_text(set.topology.degenerate, "degenerate triangle"));
     print("\n");
     if (lr) print_contents(*lr);
     print("  ring: {} vertices on it, {} isolated; T0 {:.2f} %, in warts {:.2f} %, T2 {:.2f} %\n\n",

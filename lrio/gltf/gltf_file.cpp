@@ -244,7 +244,8 @@ Result<GltfChunks> split_gltf(std::span<const std::byte> bytes) {
     if (bytes.size() < kHeader + kChunkHeader) return malformed("{} bytes are too few for a GLB file", bytes.size());
     if (word_at(bytes, 4) != 2) return unsupported("byte 4: GLB version {}", word_at(bytes, 4));
     const std::uint32_t length = word_at(bytes, 8);
-    if (length > bytes.size()) return malformed("byte 8: {} bytes long, but has {}", length, bytes.size());
+    if (length > bytes.size())
+        return malformed("byte 8: the header says {} bytes, the file has {}", length, bytes.size());
     bytes = bytes.first(length);
     GltfChunks out;
     // The first chunk is JSON; the second, if any, is usually BIN; further chunks are ignored. The last chunk may lack

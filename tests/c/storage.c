@@ -233,8 +233,10 @@ int main(int argc, char** argv) {
     }
     fclose(file);
     file_count = size / 4;
-    if (file_count < HEADER_WORDS || file_words[2] > (file_count - HEADER_WORDS) / SECTION_WORDS)
-        return fail("no .lr file", 0, 0);
+    if (file_count < HEADER_WORDS || file_words[1] != 4 || lacedring_crc32(file_words, 28) != file_words[7] ||
+        file_words[2] > (file_count - HEADER_WORDS) / SECTION_WORDS ||
+        lacedring_crc32(file_words + HEADER_WORDS, 32 * (size_t)file_words[2]) != file_words[6])
+        return fail("no .lr file of version 4, or its header or section table is damaged", 0, 0);
     for (i = 0; i < file_words[2]; ++i) { /* connectivity, seams, POSITION, other attributes */
         const uint32_t* section = file_words + HEADER_WORDS + (size_t)SECTION_WORDS * i;
         const uint32_t* words = contents_of(section, &count);

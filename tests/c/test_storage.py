@@ -43,14 +43,13 @@ def faces(vertices, triangles):
 
 
 def check_damage(programs, file, folder):
-    """Changes one bit of a section in each of 12 copies of the file."""
+    """Changes one bit in each of 12 copies of the file."""
     seed = random.randrange(2**32)
     rng = random.Random(seed)
     whole = pathlib.Path(file).read_bytes()
-    begin = struct.unpack_from("<Q", whole, 32 + 8)[0]
-    sizes = struct.unpack_from("<Q", whole, 32 + 16)[0]
-    for _ in range(12):
-        bit = rng.randrange(8 * begin, 8 * (begin + sizes))
+    begin, size = struct.unpack_from("<QQ", whole, 32 + 8)
+    for i in range(12):  # of the first section, and of the header and the section table
+        bit = rng.randrange(8 * begin, 8 * (begin + size)) if i % 2 else rng.randrange(8 * 64)
         damaged = bytearray(whole)
         damaged[bit // 8] ^= 1 << bit % 8
         pathlib.Path(folder, "damaged.lr").write_bytes(damaged)

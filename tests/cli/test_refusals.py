@@ -332,7 +332,8 @@ class Advice(CliTest):
     def test_outputs_by_extension(self):
         mesh, lr = self.write("a.ply", write.ply(POINTS, TRIANGLES)), self.path("a.lr")
         self.ok("encode", mesh, "-o", lr)
-        self.fails("decode", lr, "-o", self.path("a.stl"), mentions=[".glb or .ply or .obj"], codes=(WRONG_USAGE,))
+        for options in ([], ["--force"]):
+            self.fails("decode", lr, "-o", self.path("a.stl"), *options, mentions=[".glb or .ply or .obj"], codes=(WRONG_USAGE,))
 
 
 class Notes(CliTest):
@@ -345,7 +346,7 @@ class Notes(CliTest):
         for what in ("not kept", "2 materials", "1 texture", "1 image", "1 skin", "1 animation"):
             self.assertIn(what, first)
         self.assertEqual(self.json("info", "--json", gltf)["triangles"], 1)  # standard output is the document only
-        self.assertIn("left out of the mesh: 2 materials", self.ok("info", gltf).err)
+        self.assertIn("not used here: 2 materials", self.ok("info", gltf).err)
         # An error is one line, without the notes.
         self.fails("encode", gltf, "-o", self.path("missing/a.lr"), mentions=["missing/a.lr"])
 

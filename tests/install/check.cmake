@@ -74,7 +74,7 @@ expect("${encode_prints}")
 run(${WORK}/core/seams)
 expect("^8 vertices, 24 copies, 12 sharp edges\n$")
 run(${WORK}/core/neighbors)
-expect("^0: 1\n1: 0 2\n2: 1\n$")
+expect("^triangle 0, across from vertex 0: triangle 1\n.*triangle 2, across from vertex 4: triangle 1\n$")
 
 # add_subdirectory where no package can be found.
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/subdirectory -B ${WORK}/subdirectory -DLACEDRING=${SOURCE}
