@@ -1,5 +1,5 @@
 # Installs the build into a new folder, builds examples/ against it in every way of docs/install.md, and runs them.
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DLACEDRING=... -DNINJA=... -DCXX=... -P check.cmake      SOURCE: the repository
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DLACEDRING=... -DNINJA=... -DCXX=... -DCC=... -DAR=... -DRANLIB=... -P check.cmake      SOURCE: the repository
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE error)
     if(NOT code EQUAL 0)
@@ -13,7 +13,7 @@ function(expect wanted)
     endif()
 endfunction()
 set(encode_prints "^[0-9]+ words, 12 indices\n$")
-set(no_packages -G Ninja -DCMAKE_MAKE_PROGRAM=${NINJA} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
+set(no_packages -G Ninja -DCMAKE_MAKE_PROGRAM=${NINJA} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_AR=${AR} -DCMAKE_RANLIB=${RANLIB} -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
                 -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 
 file(REMOVE_RECURSE ${WORK})
