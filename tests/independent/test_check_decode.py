@@ -78,7 +78,7 @@ class CheckDecode(unittest.TestCase):
         t = TRIANGLES
         moved = [(0, 0, 1e-45)] + POINTS[1:]
         negative = [(-0.0, 0, 0)] + POINTS[1:]
-        cases = {"turned": (POINTS, t[:3] + [(1, 2, 4)], "1 of them turned"), "missing": (POINTS, t[:3], "1 triangles missing"),
+        cases = {"turned": (POINTS, t[:3] + [(1, 2, 4)], "1 of them reversed"), "missing": (POINTS, t[:3], "1 triangles missing"),
                  "extra": (POINTS, t + t[:1], "1 that should not"), "moved": (moved, t, "3 triangles missing"),
                  "sign": (negative, t, "3 triangles missing"), "degenerate": (POINTS, t + [(2, 2, 3)], "1 degenerate triangles")}
         for name, (points, triangles, why) in cases.items():

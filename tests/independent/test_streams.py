@@ -474,7 +474,7 @@ class Encoded(WithProgram):
                         self.assertIsNone(check_decode.compare(self.wanted(numbers, weld), got[0]))
                         self.assertEqual(got[2], 0)
                         source = check_decode.read(self.path("m.ply"))
-                        self.assertIsNone(check_decode.in_order(source, mesh))
+                        self.assertIsNone(check_decode.order_fault(source, mesh))
                         if not weld and kind != "soup":  # has no equal vertices
                             self.assertEqual([source.positions[v] for v in mesh.vertex_order], mesh.positions)
 
@@ -720,7 +720,7 @@ class VertexStreams(WithProgram):
         for attribute in mesh.attributes:
             size = of_type(attribute)[1]
             attribute.values = b"".join(attribute.values[size * place[v]:size * place[v] + size] for v in range(len(place)))
-        self.assertIsNone(check_decode.in_order(check_decode.read(path), mesh))
+        self.assertIsNone(check_decode.order_fault(check_decode.read(path), mesh))
         indices = [0] * (3 * struct.unpack_from("<I", self.read("m.lr"), 16)[0])  # without degenerate triangles
         for i, corner in enumerate(mesh.corner_order):
             for k in range(3):
