@@ -422,10 +422,10 @@ class Notes(CliTest):
 
     def test_quiet_on_a_terminal(self):
         """The same of progress bars, which only a terminal gets."""
-        mesh = self.generate("blob", 300000)
+        mesh = self.generate("blob", 1000000)  # optimizing takes much longer than the half second after which a bar appears
         for options, shows in (([], True), (["--quiet"], False)):
             terminal, other = os.openpty()
-            encode = subprocess.Popen([cli_support.program, "encode", mesh, "-o", self.path("m.lr"), "--effort", "9", *options], stderr=other)
+            encode = subprocess.Popen([cli_support.program, "encode", mesh, "-o", self.path("m.lr"), "--effort", "9", "--resident", *options], stderr=other)
             os.close(other)
             said = b""
             try:
