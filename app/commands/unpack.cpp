@@ -30,7 +30,7 @@ int unpack_file(const UnpackCommand& options, const std::string& input, const st
     if (!scene) return fail(input, scene.error());
     const auto written = write_scene(*scene, input, output, options.output, log);
     if (!written) return fail(output_name(path), written.error());
-    if (report.primitives == 0) log.note(input_name(input), "is no packed scene: it is written as it is");
+    if (!is_packed_scene(*bytes)) log.note(input_name(input), "is no packed scene: it is written as it is");
     log.wrote(output_name(path),
               fmt::format("{}, {}, {} bytes; packed {} bytes", count_text(report.primitives, "primitive"),
                           count_text(report.triangles, "triangle"), *written, input_bytes(bytes->size(), report.read)));
