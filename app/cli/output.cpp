@@ -9,6 +9,7 @@
 #include <set>
 
 #include "lacedring/file.hpp"
+#include "lacedring/mesh_files.hpp"
 
 namespace lacedring::app {
 namespace {
@@ -33,6 +34,16 @@ Error refused(std::string why) {
     return {ErrorCode::invalid_argument, std::move(why) + " (--force writes it)"};
 }
 
+/// Unless --force is given, refuses an output that is one of the files read.
+Result<void> check_inputs(const fs::path& path, const OutputOptions& options, const RunLog& log) {
+    if (options.force || path == "-" || path.empty()) return {};
+    for (const fs::path& input : log.files()) {
+        std::error_code missing;
+        if (fs::equivalent(path, input, missing)) return refused("is an input");
+    }
+    return {};
+}
+
 }  // namespace
 
 void add_output(CLI::App& command, OutputOptions& options, const std::string& what) {
@@ -55,20 +66,14 @@ Result<void> check_output(const fs::path& path, const OutputOptions& options, co
     if (is_known(extension) && std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
         return refused(fmt::format("what is written is no {} file, but {}", extension, fmt::join(extensions, " or ")));
     }
-    for (const fs::path& input : log.files()) {
-        std::error_code missing;
-        if (fs::equivalent(path, input, missing)) return refused("is an input");
-    }
-    return {};
+    return check_inputs(path, options, log);
 }
 
 Result<void> check_mesh_output(const fs::path& path, const OutputOptions& options, const RunLog& log) {
-    constexpr std::string_view kExtensions[] = {".glb", ".ply", ".obj"};
-    if (path != "-" && std::ranges::find(kExtensions, lower_extension(path)) == std::end(kExtensions)) {
-        return Error{ErrorCode::invalid_argument,
-                     fmt::format("meshes are written as {}", fmt::join(kExtensions, " or "))};
+    if (path != "-" && writable_format(path) == MeshFormat::any) {
+        return Error{ErrorCode::invalid_argument, "meshes are written as .glb, .ply or .obj"};
     }
-    return check_output(path, options, log, kExtensions);
+    return check_inputs(path, options, log);
 }
 
 Result<void> write_output(const fs::path& path, std::span<const std::span<const std::byte>> parts) {

@@ -34,14 +34,14 @@ std::string output_name(const std::filesystem::path& path);
 Result<void> check_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log,
                           std::span<const std::string_view> extensions);
 
+/// The same for a mesh file. Refuses an extension that write_mesh cannot write even with --force.
+Result<void> check_mesh_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log);
+
 /// Writes `parts` one after the other to the path, or to standard output for "-". Errors: cannot_write.
 Result<void> write_output(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
 /// "12 triangles, 8 vertices, 345 bytes"
 std::string written_text(const Mesh& mesh, std::uint64_t bytes);
-
-/// check_output of a mesh file. Also refuses an extension other than .glb, .ply and .obj, even with --force.
-Result<void> check_mesh_output(const std::filesystem::path& path, const OutputOptions& options, const RunLog& log);
 
 /// Output paths, one per input: options.path for a single input, else FOLDER/STEM + `extension`; creates FOLDER.
 /// Errors: invalid_argument (several inputs and no folder, or two equal outputs), cannot_write (FOLDER).

@@ -33,7 +33,7 @@ static int fail(const char* what, unsigned status, uint64_t where) {
 /* The words of a section; null if it is beyond the file or damaged. */
 static const uint32_t* contents_of(const uint32_t* section, size_t* count) {
     const size_t first = section[2] / 4;
-    *count = (section[4] + 3) / 4;
+    *count = section[4] / 4 + (section[4] % 4 != 0);
     if (section[3] != 0 || section[5] != 0 || first > file_count || *count > file_count - first) return NULL;
     return lacedring_crc32(file_words + first, section[4]) == section[1] ? file_words + first : NULL;
 }

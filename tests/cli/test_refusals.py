@@ -333,7 +333,7 @@ class Advice(CliTest):
         mesh, lr = self.write("a.ply", write.ply(POINTS, TRIANGLES)), self.path("a.lr")
         self.ok("encode", mesh, "-o", lr)
         for options in ([], ["--force"]):
-            self.fails("decode", lr, "-o", self.path("a.stl"), *options, mentions=[".glb or .ply or .obj"], codes=(WRONG_USAGE,))
+            self.fails("decode", lr, "-o", self.path("a.stl"), *options, mentions=[".glb, .ply or .obj"], codes=(WRONG_USAGE,))
 
 
 class Notes(CliTest):
